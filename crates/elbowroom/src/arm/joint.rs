@@ -1,0 +1,106 @@
+use std::f64::consts::TAU;
+
+use thiserror::Error;
+
+use crate::geometry::wrap_angle;
+
+/// Rounding that inverse kinematics may put between an angle and the limit it lies on (rad).
+const LIMIT_ROUNDING: f64 = 1e-12;
+
+/// Widest range of a joint with stops (rad); beyond it angles lose the digits the checks rely on.
+const WIDEST_RANGE: f64 = 1e3 * TAU;
+
+/// Where a joint may turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointLimits {
+    /// All the way round, again and again: a circle.
+    Continuous,
+    /// Between two stops, both included: a line. 0 and 2π are then different places.
+    Range {
+        /// Lower stop (rad).
+        min: f64,
+        /// Upper stop (rad).
+        max: f64,
+    },
+}
+
+/// Why two numbers are no joint range.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum JointLimitsError {
+    /// Infinite, not a number, or further than a thousand turns from 0.
+    #[error("limits are {min} rad to {max} rad, they must lie within a thousand turns of 0")]
+    OutsideRange {
+        /// Lower stop (rad).
+        min: f64,
+        /// Upper stop (rad).
+        max: f64,
+    },
+    /// The lower stop is above the upper one.
+    #[error("lower limit {min} rad is above upper limit {max} rad")]
+    Reversed {
+        /// Lower stop (rad).
+        min: f64,
+        /// Upper stop (rad).
+        max: f64,
+    },
+}
+
+impl JointLimits {
+    /// The closed range from `min` to `max` (rad).
+    ///
+    /// # Errors
+    /// [`JointLimitsError`] for a reversed range or one that is not finite.
+    pub fn range(min: f64, max: f64) -> Result<Self, JointLimitsError> {
+        if !(min.abs() <= WIDEST_RANGE && max.abs() <= WIDEST_RANGE) {
+            return Err(JointLimitsError::OutsideRange { min, max });
+        }
+        if min > max {
+            return Err(JointLimitsError::Reversed { min, max });
+        }
+        Ok(Self::Range { min, max })
+    }
+
+    /// Whether the joint may stand at `angle` (rad).
+    pub fn contains(&self, angle: f64) -> bool {
+        match *self {
+            Self::Continuous => angle.is_finite(),
+            Self::Range { min, max } => (min..=max).contains(&angle),
+        }
+    }
+
+    /// Every place where the joint may stand to point in direction `angle` (rad), lowest first.
+    ///
+    /// A continuous joint has one, in (-π, π]; one with stops has one for each turn that fits between
+    /// them. An angle beyond a stop by no more than rounding is put on the stop.
+    pub fn places(&self, angle: f64) -> impl Iterator<Item = f64> + use<> {
+        let (min, max) = match *self {
+            Self::Continuous => (-std::f64::consts::PI, std::f64::consts::PI),
+            Self::Range { min, max } => (min, max),
+        };
+        let direction = wrap_angle(angle);
+        let single = matches!(self, Self::Continuous);
+        let first = if single { 0.0 } else { ((min - LIMIT_ROUNDING - direction) / TAU).ceil() };
+        let last = if single { 0.0 } else { ((max + LIMIT_ROUNDING - direction) / TAU).floor() };
+        (first as i64..=last as i64).map(move |turn| (direction + TAU * turn as f64).clamp(min, max))
+    }
+}
+
+/// The fastest a joint may move; `None` where the user stated no limit.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct MotionLimits {
+    /// Greatest speed (rad/s).
+    pub velocity: Option<f64>,
+    /// Greatest acceleration (rad/s²).
+    pub acceleration: Option<f64>,
+    /// Greatest jerk (rad/s³).
+    pub jerk: Option<f64>,
+}
+
+/// One joint of an arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Where it may stand.
+    pub limits: JointLimits,
+    /// How fast it may move.
+    pub motion: MotionLimits,
+}

@@ -1,0 +1,115 @@
+use thiserror::Error;
+
+use super::{Point, Segment};
+
+/// The most vertices one polygon may have: its check for crossings takes quadratic time.
+pub const MAX_VERTICES: usize = 10_000;
+
+/// Why a list of points is not a simple polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum PolygonError {
+    /// Fewer than three points, or more than [`MAX_VERTICES`].
+    #[error("{found} vertices, 3 to {MAX_VERTICES} are allowed")]
+    VertexCount {
+        /// How many were given.
+        found: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("vertex {vertex} is not finite")]
+    NotFinite {
+        /// Its place in the list, from 0.
+        vertex: usize,
+    },
+    /// Two edges have more in common than a shared end.
+    #[error("edge {first} (from vertex {first}) crosses or touches edge {second} (from vertex {second})")]
+    EdgesMeet {
+        /// The first edge, named by the vertex where it begins, from 0.
+        first: usize,
+        /// The second edge.
+        second: usize,
+    },
+}
+
+/// A simple polygon and its inside; convex or not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polygon {
+    vertices: Vec<Point>,
+}
+
+impl Polygon {
+    /// The polygon with these corners, in either direction, without repeating the first.
+    ///
+    /// # Errors
+    /// [`PolygonError`] unless the boundary is a closed line of non-zero length edges that nowhere
+    /// crosses or touches itself; decided exactly.
+    pub fn new(vertices: Vec<Point>) -> Result<Self, PolygonError> {
+        if !(3..=MAX_VERTICES).contains(&vertices.len()) {
+            return Err(PolygonError::VertexCount { found: vertices.len() });
+        }
+        if let Some(vertex) = vertices.iter().position(|v| !v.is_finite()) {
+            return Err(PolygonError::NotFinite { vertex });
+        }
+        let polygon = Self { vertices };
+        match polygon.first_meeting_edges() {
+            Some((first, second)) => Err(PolygonError::EdgesMeet { first, second }),
+            None => Ok(polygon),
+        }
+    }
+
+    /// The corners in the order given.
+    pub fn vertices(&self) -> &[Point] {
+        &self.vertices
+    }
+
+    /// The edges, the one that closes the polygon last.
+    pub fn edges(&self) -> impl Iterator<Item = Segment> + '_ {
+        let n = self.vertices.len();
+        (0..n).map(move |i| Segment::new(self.vertices[i], self.vertices[(i + 1) % n]))
+    }
+
+    /// Whether `point` lies inside; the boundary may count either way.
+    pub fn contains(&self, point: Point) -> bool {
+        let mut inside = false;
+        for edge in self.edges() {
+            if (edge.a.y > point.y) != (edge.b.y > point.y) {
+                let x = edge.a.x + (point.y - edge.a.y) / (edge.b.y - edge.a.y) * (edge.b.x - edge.a.x);
+                inside ^= point.x < x;
+            }
+        }
+        inside
+    }
+
+    /// Distance from the polygon to `segment` (m); 0 when they meet or the segment lies inside.
+    pub fn distance_to_segment(&self, segment: Segment) -> f64 {
+        if self.contains(segment.a) {
+            return 0.0;
+        }
+        self.edges().map(|edge| edge.distance_to_segment(segment)).fold(f64::INFINITY, f64::min)
+    }
+
+    fn first_meeting_edges(&self) -> Option<(usize, usize)> {
+        let edges: Vec<Segment> = self.edges().collect();
+        let n = edges.len();
+        for i in 0..n {
+            for j in i + 1..n {
+                let meet = if j == i + 1 {
+                    folds_back(edges[i].a, edges[i].b, edges[j].b)
+                } else if i == 0 && j == n - 1 {
+                    folds_back(edges[j].a, edges[j].b, edges[i].b)
+                } else {
+                    edges[i].meets(edges[j])
+                };
+                if meet {
+                    return Some((i, j));
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Whether the corner a-b-c has an edge of no length or turns straight back.
+fn folds_back(a: Point, b: Point, c: Point) -> bool {
+    let (first, second) = (Segment::new(a, b), Segment::new(b, c));
+    a == b || b == c || first.meets(Segment::new(c, c)) || second.meets(Segment::new(a, a))
+}

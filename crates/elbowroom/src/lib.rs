@@ -1,0 +1,13 @@
+//! Motion planning for planar robot arms.
+//!
+//! The crate is pure: no files, no clock, no printing, no threads of its own making. Lengths are in
+//! metres, angles in radians, times in seconds; positions are in the world frame.
+//!
+//! Modules import only from those before them:
+//! `geometry < grid < search < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
+
+pub mod arm;
+pub mod geometry;
+pub mod grid;
+pub mod scene;
+pub mod trajectory;

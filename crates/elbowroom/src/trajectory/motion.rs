@@ -1,0 +1,101 @@
+use thiserror::Error;
+
+use super::{Piece, State};
+
+/// Polynomial pieces one after the other. Nobody has judged yet whether an arm may run it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion<const DOF: usize> {
+    pieces: Vec<Piece<DOF>>,
+}
+
+/// Why pieces make no motion.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MotionError {
+    /// There is none.
+    #[error("a motion needs at least one piece")]
+    Empty,
+    /// A coefficient or a time is infinite or not a number.
+    #[error("piece {piece} has a number that is not finite")]
+    NotFinite {
+        /// Its place, from 0.
+        piece: usize,
+    },
+    /// A piece lasts no time, or less.
+    #[error("piece {piece} lasts {duration} s, it must last longer than 0 s")]
+    Duration {
+        /// Its place, from 0.
+        piece: usize,
+        /// What was given (s).
+        duration: f64,
+    },
+    /// A piece does not begin where the one before it ends.
+    #[error("piece {piece} begins at {start} s, the one before it ends at {end} s")]
+    Gap {
+        /// Its place, from 0.
+        piece: usize,
+        /// When it begins (s).
+        start: f64,
+        /// When its predecessor ends (s).
+        end: f64,
+    },
+}
+
+impl<const DOF: usize> Motion<DOF> {
+    /// The motion through `pieces`, each beginning when the one before it ends. A single piece may last
+    /// 0 s: an arm that is already there.
+    ///
+    /// # Errors
+    /// [`MotionError`] for no piece, numbers that are not finite, or times that do not join.
+    pub fn new(pieces: Vec<Piece<DOF>>) -> Result<Self, MotionError> {
+        if pieces.is_empty() {
+            return Err(MotionError::Empty);
+        }
+        for (i, piece) in pieces.iter().enumerate() {
+            let finite = piece.start.is_finite()
+                && piece.duration.is_finite()
+                && piece.coefficients.iter().flatten().all(|c| c.is_finite());
+            if !finite {
+                return Err(MotionError::NotFinite { piece: i });
+            }
+            let standing = pieces.len() == 1 && piece.duration == 0.0;
+            if piece.duration <= 0.0 && !standing {
+                return Err(MotionError::Duration { piece: i, duration: piece.duration });
+            }
+            if i > 0 {
+                let end = pieces[i - 1].start + pieces[i - 1].duration;
+                if (piece.start - end).abs() > 1e-9 * end.abs().max(1.0) {
+                    return Err(MotionError::Gap { piece: i, start: piece.start, end });
+                }
+            }
+        }
+        Ok(Self { pieces })
+    }
+
+    /// The pieces in order of time.
+    pub fn pieces(&self) -> &[Piece<DOF>] {
+        &self.pieces
+    }
+
+    /// When it begins (s).
+    pub fn start(&self) -> f64 {
+        self.pieces[0].start
+    }
+
+    /// When it ends (s).
+    pub fn end(&self) -> f64 {
+        let last = &self.pieces[self.pieces.len() - 1];
+        last.start + last.duration
+    }
+
+    /// How long it lasts (s).
+    pub fn duration(&self) -> f64 {
+        self.end() - self.start()
+    }
+
+    /// The joints at time `t` (s); before the start and after the end, those of the nearer end.
+    pub fn at(&self, t: f64) -> State<DOF> {
+        let index = self.pieces.partition_point(|piece| piece.start <= t).saturating_sub(1);
+        let piece = &self.pieces[index];
+        piece.at((t - piece.start).clamp(0.0, piece.duration))
+    }
+}
