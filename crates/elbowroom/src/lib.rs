@@ -10,4 +10,5 @@ pub mod arm;
 pub mod geometry;
 pub mod grid;
 pub mod scene;
+pub mod search;
 pub mod trajectory;

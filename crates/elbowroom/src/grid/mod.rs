@@ -59,8 +59,10 @@ impl Grid {
             if !(length.is_finite() && length >= 0.0) {
                 return Err(GridError::Range { axis, min, max });
             }
-            // A range that is a whole number of steps must not lose its last point to rounding.
-            Ok((length / step * (1.0 + 4.0 * f64::EPSILON)).floor() + 1.0)
+            // A range that is a whole number of steps must not lose its last point to the rounding of its ends,
+            // which weighs the more the farther from 0 they are; nor may a quarter of a step become a point.
+            let rounding = f64::EPSILON * (min.abs() + max.abs() + length) / step;
+            Ok((length / step + rounding.min(0.25)).floor() + 1.0)
         };
         let (columns, rows) = (count('x', x)?, count('y', y)?);
         if columns * rows > MAX_POINTS as f64 {

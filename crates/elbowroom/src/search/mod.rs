@@ -1,0 +1,12 @@
+//! Cost-to-go over any graph: D*, which repairs its answer after changes, and Dijkstra's algorithm, which judges it.
+
+mod dijkstra;
+mod dstar;
+mod goal;
+mod graph;
+mod open_list;
+
+pub use dijkstra::dijkstra;
+pub use dstar::{Dstar, NodeState, Progress, Until};
+pub use goal::GoalError;
+pub use graph::Graph;

@@ -1,0 +1,146 @@
+/// Children of one entry of the heap: four of them fit one cache line.
+const ARITY: usize = 4;
+
+/// The slot of a node that is not on the list.
+const ABSENT: u32 = u32::MAX;
+
+/// D*'s open list: nodes waiting to be expanded, the one of least key first, of equal keys the least node.
+///
+/// A 4-ary heap that knows where each node stands in it, so that a node is on the list once at most and its key
+/// can be lowered in place.
+#[derive(Debug, Clone)]
+pub(super) struct OpenList {
+    heap: Vec<Entry>,
+    slots: Vec<u32>,
+}
+
+/// The bits of a key above the number of its node. Keys are never negative, so their bits sort as they do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(u128);
+
+impl Entry {
+    fn new(node: usize, key: f64) -> Self {
+        debug_assert!(key >= 0.0 && key.is_sign_positive());
+        Self((u128::from(key.to_bits()) << 64) | node as u128)
+    }
+
+    fn node(self) -> usize {
+        self.0 as usize
+    }
+
+    fn key(self) -> f64 {
+        f64::from_bits((self.0 >> 64) as u64)
+    }
+}
+
+impl OpenList {
+    /// An empty list for nodes below `len`.
+    pub(super) fn new(len: usize) -> Self {
+        Self { heap: Vec::new(), slots: vec![ABSENT; len] }
+    }
+
+    /// Whether `node` is on the list.
+    pub(super) fn contains(&self, node: usize) -> bool {
+        self.slots[node] != ABSENT
+    }
+
+    /// The least key on the list.
+    pub(super) fn least_key(&self) -> Option<f64> {
+        self.heap.first().map(|entry| entry.key())
+    }
+
+    /// Puts `node` on the list with `key`, or lowers the key it has there; a key is never raised.
+    pub(super) fn insert(&mut self, node: usize, key: f64) {
+        let entry = Entry::new(node, key);
+        let slot = self.slots[node];
+        if slot == ABSENT {
+            self.heap.push(entry);
+            self.sift_up(self.heap.len() - 1, entry);
+        } else if entry < self.heap[slot as usize] {
+            self.sift_up(slot as usize, entry);
+        }
+    }
+
+    /// Takes the first node off the list, with its key.
+    pub(super) fn pop(&mut self) -> Option<(usize, f64)> {
+        let first = *self.heap.first()?;
+        let last = self.heap.pop()?;
+        if !self.heap.is_empty() {
+            self.sift_down(last);
+        }
+        self.slots[first.node()] = ABSENT;
+        Some((first.node(), first.key()))
+    }
+
+    /// Moves `entry` from `slot` towards the root to where it belongs.
+    fn sift_up(&mut self, mut slot: usize, entry: Entry) {
+        while slot > 0 {
+            let parent = (slot - 1) / ARITY;
+            if self.heap[parent] < entry {
+                break;
+            }
+            self.place(slot, self.heap[parent]);
+            slot = parent;
+        }
+        self.place(slot, entry);
+    }
+
+    /// Moves `entry` from the root away to where it belongs.
+    fn sift_down(&mut self, entry: Entry) {
+        let mut slot = 0;
+        loop {
+            let children = slot * ARITY + 1;
+            let end = (children + ARITY).min(self.heap.len());
+            let Some(least) = (children..end).min_by_key(|&child| self.heap[child]) else { break };
+            if entry < self.heap[least] {
+                break;
+            }
+            self.place(slot, self.heap[least]);
+            slot = least;
+        }
+        self.place(slot, entry);
+    }
+
+    fn place(&mut self, slot: usize, entry: Entry) {
+        self.heap[slot] = entry;
+        self.slots[entry.node()] = slot as u32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::{Rng, SeedableRng};
+
+    use super::OpenList;
+
+    #[test]
+    fn agrees_with_a_sorted_map() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut below = |n: u64| rng.next_u64() % n;
+        for case in 0..2_000 {
+            let len = 1 + case % 40;
+            let mut list = OpenList::new(len);
+            let mut judge = BTreeMap::new();
+            for _ in 0..200 {
+                if below(3) > 0 {
+                    // Few distinct keys, so that ties abound.
+                    let (node, key) = (below(len as u64) as usize, below(8) as f64 / 4.0);
+                    list.insert(node, key);
+                    let known = judge.entry(node).or_insert(key);
+                    *known = known.min(key);
+                } else {
+                    let first = judge.iter().map(|(&n, &k)| (n, k)).min_by(|a, b| a.1.total_cmp(&b.1));
+                    assert_eq!(list.least_key(), first.map(|(_, key)| key));
+                    assert_eq!(list.pop(), first);
+                    if let Some((node, _)) = first {
+                        judge.remove(&node);
+                    }
+                }
+                assert!((0..len).all(|node| list.contains(node) == judge.contains_key(&node)));
+            }
+        }
+    }
+}
