@@ -11,4 +11,5 @@ pub mod geometry;
 pub mod grid;
 pub mod scene;
 pub mod search;
+pub mod swarm;
 pub mod trajectory;

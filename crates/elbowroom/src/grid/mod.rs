@@ -138,14 +138,36 @@ impl Grid {
         Some(self.cell(column, row))
     }
 
-    /// The up to eight neighbours of `cell`, each with its distance (m): `step`, or `step * √2` on a diagonal.
-    pub fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    /// The corners of the square of the grid that `point` lies in: four, fewer at the grid's edge and
+    /// outside it.
+    pub fn corners(&self, point: Point) -> impl Iterator<Item = usize> + '_ {
+        let column = ((point.x - self.origin.x) / self.step).floor();
+        let row = ((point.y - self.origin.y) / self.step).floor();
+        [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)].into_iter().filter_map(move |(dx, dy)| {
+            let within = |i: f64, count: usize| (i >= 0.0 && i < count as f64).then_some(i as usize);
+            Some(self.cell(within(column + dx, self.columns)?, within(row + dy, self.rows)?))
+        })
+    }
+
+    /// The neighbour of `cell` in `direction`, from 0 (along x) once round to 7 in eighths of a turn, or
+    /// `None` past the edge of the grid. The way back is `(direction + 4) % 8`.
+    pub fn neighbour(&self, cell: usize, direction: usize) -> Option<usize> {
         let (column, row) = self.column_row(cell);
-        let diagonal = self.step * std::f64::consts::SQRT_2;
-        OFFSETS.into_iter().filter_map(move |(dx, dy)| {
-            let column = column.checked_add_signed(dx).filter(|&c| c < self.columns)?;
-            let row = row.checked_add_signed(dy).filter(|&r| r < self.rows)?;
-            Some((self.cell(column, row), if dx == 0 || dy == 0 { self.step } else { diagonal }))
+        let (dx, dy) = OFFSETS[direction % 8];
+        let column = column.checked_add_signed(dx).filter(|&c| c < self.columns)?;
+        let row = row.checked_add_signed(dy).filter(|&r| r < self.rows)?;
+        Some(self.cell(column, row))
+    }
+
+    /// Distance to a neighbour in `direction` (m): `step`, or `step * √2` on a diagonal.
+    pub fn neighbour_distance(&self, direction: usize) -> f64 {
+        if direction % 2 == 0 { self.step } else { self.step * std::f64::consts::SQRT_2 }
+    }
+
+    /// The up to eight neighbours of `cell`, each with its distance (m).
+    pub fn neighbours(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        (0..8).filter_map(move |direction| {
+            Some((self.neighbour(cell, direction)?, self.neighbour_distance(direction)))
         })
     }
 }

@@ -1,7 +1,14 @@
 //! Motion over time: polynomial pieces per joint.
 
 mod motion;
+mod peak;
 mod piece;
+mod spline;
+mod timing;
+mod via;
 
 pub use motion::{Motion, MotionError};
 pub use piece::{Piece, State};
+pub use spline::{Via, durations_by_length, quintic_through, vias_at};
+pub use timing::{SpeedLimits, fastest_durations, stretch};
+pub use via::random_vias;

@@ -1,0 +1,13 @@
+//! Geometry without time: where the tip goes, and where the joints go.
+
+mod follow;
+mod joint_path;
+mod simplify;
+mod sweep;
+mod tip_path;
+
+pub use follow::{FollowError, Followed, Jump, JumpKind, follow};
+pub use joint_path::JointPath;
+pub use simplify::simplify;
+pub use sweep::{CERTIFIED_CLEARANCE, sweep_is_free};
+pub use tip_path::TipPath;

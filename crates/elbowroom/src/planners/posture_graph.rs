@@ -1,0 +1,200 @@
+use std::cell::Cell;
+
+use super::sheets::{Sheets, direct};
+use crate::arm::{Configuration, Posture};
+use crate::free_space::FreeSpace;
+use crate::geometry::Point;
+use crate::path::sweep_is_free;
+use crate::scene::Scene;
+use crate::search::Graph;
+
+/// How near to full stretch or fold a posture may be changed, in grid steps of tip travel: wide enough
+/// that every direction has a grid point there.
+const FLIP_BAND: f64 = 2.0;
+
+/// Least cost of an edge, in grid steps: the search needs costs that do not vanish in a sum.
+const LEAST_COST: f64 = 1e-9;
+
+/// Where the arm can be, and from where it can turn straight to where: nodes are free configurations over
+/// grid points, in both postures, and the exact start and goal configurations; edges are certified sweeps.
+///
+/// Along a sheet a node has its eight neighbours. Near full stretch and fold it also has those of the other
+/// sheets: the straight turn passes through the line of links there, which is where a posture can change.
+/// Edges are certified when first asked for, and the answer is kept.
+pub(crate) struct PostureGraph<'a> {
+    scene: &'a Scene,
+    sheets: Sheets,
+    may_flip: bool,
+    places: Vec<PlaceNode>,
+    verdicts: Vec<Cell<Verdicts>>,
+}
+
+/// A configuration that is not over a grid point: a start or a goal.
+struct PlaceNode {
+    q: Configuration<2>,
+    tip: Point,
+    joined: Vec<(usize, f64)>,
+}
+
+/// What is known of the eight edges to the neighbours of a node on its sheet, a bit each.
+#[derive(Clone, Copy, Default)]
+struct Verdicts {
+    known: u8,
+    free: u8,
+}
+
+impl<'a> PostureGraph<'a> {
+    /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
+    pub(crate) fn new(scene: &'a Scene, space: &FreeSpace, may_flip: bool) -> Self {
+        let sheets = Sheets::new(&scene.arm, &scene.grid, space);
+        let verdicts = vec![Cell::new(Verdicts::default()); sheets.len()];
+        Self { scene, sheets, may_flip, places: Vec::new(), verdicts }
+    }
+
+    /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
+    /// around its tip and to the places already there, as far as the straight turns are certified.
+    pub(crate) fn insert(&mut self, q: Configuration<2>) -> usize {
+        let node = self.len();
+        let tip = self.scene.arm.tip(&q);
+        let mut joined = Vec::new();
+        for cell in self.scene.grid.corners(tip) {
+            for other in self.sheets.over(cell) {
+                if let Some(to) = self.sheets.configuration(other)
+                    && self.is_certified(&q, to)
+                {
+                    joined.push((other, self.cost(tip, self.scene.grid.point(cell), &q, to)));
+                }
+            }
+        }
+        let reach = 2.0 * self.scene.grid.step();
+        let cells = self.sheets.len();
+        for i in 0..self.places.len() {
+            let place = &self.places[i];
+            if place.tip.distance(tip) <= reach && self.is_certified(&place.q, &q) {
+                let cost = self.cost(place.tip, tip, &place.q, &q);
+                joined.push((cells + i, cost));
+                self.places[i].joined.push((node, cost));
+            }
+        }
+        self.places.push(PlaceNode { q, tip, joined });
+        node
+    }
+
+    /// The configuration at `node`, which must be free.
+    pub(crate) fn configuration(&self, node: usize) -> Option<&Configuration<2>> {
+        match node.checked_sub(self.sheets.len()) {
+            None => self.sheets.configuration(node),
+            Some(i) => Some(&self.places[i].q),
+        }
+    }
+
+    /// Where the tip is at `node`.
+    pub(crate) fn tip(&self, node: usize) -> Point {
+        match node.checked_sub(self.sheets.len()) {
+            None => self.scene.grid.point(self.sheets.cell(node)),
+            Some(i) => self.places[i].tip,
+        }
+    }
+
+    fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+        let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
+        if changes && !self.may_flip {
+            return false;
+        }
+        direct(&self.scene.arm, from, to).is_some_and(|to| sweep_is_free(self.scene, from, &to))
+    }
+
+    /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
+    /// fold between them. More than 0, as the search asks.
+    fn cost(&self, a: Point, b: Point, qa: &Configuration<2>, qb: &Configuration<2>) -> f64 {
+        let straight = a.distance(b);
+        let travel = match (Posture::of(qa), Posture::of(qb)) {
+            (Some(pa), Some(pb)) if pa != pb => straight.max(self.to_edge(a) + self.to_edge(b)),
+            _ => straight,
+        };
+        travel.max(LEAST_COST * self.scene.grid.step())
+    }
+
+    /// From `tip` to the nearer edge of the reach (m).
+    fn to_edge(&self, tip: Point) -> f64 {
+        let [nearest, farthest] = self.scene.arm.reach();
+        let distance = tip.distance(self.scene.arm.base());
+        (farthest - distance).min(distance - nearest).max(0.0)
+    }
+
+    /// Whether the edge from `node` to its neighbour `other` on the sheet is certified; `direction` is the
+    /// neighbour's place around it.
+    fn sheet_edge(&self, node: usize, other: usize, direction: usize, q: &Configuration<2>) -> bool {
+        let bit = 1 << direction;
+        let verdicts = self.verdicts[node].get();
+        if verdicts.known & bit != 0 {
+            return verdicts.free & bit != 0;
+        }
+        let free = self.sheets.configuration(other).is_some_and(|to| self.is_certified(q, to));
+        self.keep(node, bit, free);
+        // Directions go once round, so the way back is four further.
+        self.keep(other, 1 << ((direction + 4) % 8), free);
+        free
+    }
+
+    fn keep(&self, node: usize, bit: u8, free: bool) {
+        let mut verdicts = self.verdicts[node].get();
+        verdicts.known |= bit;
+        verdicts.free |= if free { bit } else { 0 };
+        self.verdicts[node].set(verdicts);
+    }
+
+    /// Edges from `node` to other sheets, over `cell` itself or a neighbour: to another turn of the same
+    /// posture anywhere, to the other posture near full stretch and fold.
+    fn visit_across(&self, node: usize, q: &Configuration<2>, cell: usize, visit: &mut impl FnMut(usize, f64)) {
+        let (from, to) = (self.tip(node), self.scene.grid.point(cell));
+        let near_edge = || self.may_flip && self.to_edge(from).max(self.to_edge(to)) <= self.flip_band();
+        for other in self.sheets.over(cell) {
+            if self.sheets.same_sheet(node, other) || !(self.sheets.same_posture(node, other) || near_edge()) {
+                continue;
+            }
+            let Some(target) = self.sheets.configuration(other) else { continue };
+            // One order for both ways, so that rounding cannot make an edge one-way.
+            let (a, b) = if node < other { (q, target) } else { (target, q) };
+            if self.is_certified(a, b) {
+                visit(other, self.cost(from, to, q, target));
+            }
+        }
+    }
+
+    fn flip_band(&self) -> f64 {
+        FLIP_BAND * self.scene.grid.step()
+    }
+}
+
+impl Graph for PostureGraph<'_> {
+    fn len(&self) -> usize {
+        self.sheets.len() + self.places.len()
+    }
+
+    fn neighbours(&self, node: usize, mut visit: impl FnMut(usize, f64)) {
+        if let Some(i) = node.checked_sub(self.sheets.len()) {
+            self.places[i].joined.iter().for_each(|&(other, cost)| visit(other, cost));
+            return;
+        }
+        let Some(q) = self.sheets.configuration(node) else { return };
+        let cell = self.sheets.cell(node);
+        let sheet = node - cell;
+        self.visit_across(node, q, cell, &mut visit);
+        for direction in 0..8 {
+            let Some(neighbour) = self.scene.grid.neighbour(cell, direction) else { continue };
+            let other = sheet + neighbour;
+            if self.sheet_edge(node, other, direction, q) {
+                visit(other, self.scene.grid.neighbour_distance(direction));
+            }
+            self.visit_across(node, q, neighbour, &mut visit);
+        }
+        for (i, place) in self.places.iter().enumerate() {
+            for &(other, cost) in &place.joined {
+                if other == node {
+                    visit(self.sheets.len() + i, cost);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! The paper's modified lbest swarm: it draws paths over a cost-to-go, one neighbour at a time.
+
+use std::collections::HashSet;
+
+use rand_chacha::ChaCha8Rng;
+use rand_core::{Rng, SeedableRng};
+use thiserror::Error;
+
+use crate::search::Graph;
+
+/// Costs that differ by less than this share are the same: sums of the same steps in another order.
+const EQUAL_COST: f64 = 1e-9;
+
+/// The most candidate paths one plan may draw.
+pub const MAX_CANDIDATES: usize = 1_000_000;
+
+/// How the swarm draws its paths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GuidedSwarmSettings {
+    /// How many candidate paths are drawn; the paper's 300 iterations.
+    pub candidates: usize,
+    /// Inertia of the first candidate; it falls linearly, eq. (7).
+    pub first_inertia: f64,
+    /// Inertia that the last candidate comes near.
+    pub last_inertia: f64,
+    /// Pull towards the neighbour of least cost-to-go.
+    ///
+    /// The paper's text gives this role to `c1 = 3`, its eq. (5) to the other term; the text is followed.
+    pub c_dstar: f64,
+    /// Pull towards the straight distance to the goal.
+    pub c_euclid: f64,
+    /// Greatest speed (m), or none.
+    pub v_max: Option<f64>,
+}
+
+impl Default for GuidedSwarmSettings {
+    fn default() -> Self {
+        Self {
+            candidates: 300,
+            first_inertia: 0.9,
+            last_inertia: 0.4,
+            c_dstar: 3.0,
+            c_euclid: 1.0,
+            v_max: None,
+        }
+    }
+}
+
+/// A setting of the swarm that makes no sense.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum GuidedSwarmError {
+    /// No path would be drawn, or more than [`MAX_CANDIDATES`].
+    #[error("{found} candidate paths, 1 to {MAX_CANDIDATES} are allowed")]
+    Candidates {
+        /// What was asked.
+        found: usize,
+    },
+    /// A coefficient is negative, infinite or not a number.
+    #[error("{name} is {value}, it must be finite and not negative")]
+    Coefficient {
+        /// Which.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+    },
+}
+
+impl GuidedSwarmSettings {
+    /// Nothing when every setting makes sense.
+    ///
+    /// # Errors
+    /// [`GuidedSwarmError`] names the first that does not.
+    pub fn check(&self) -> Result<(), GuidedSwarmError> {
+        if self.candidates == 0 || self.candidates > MAX_CANDIDATES {
+            return Err(GuidedSwarmError::Candidates { found: self.candidates });
+        }
+        let named = [
+            ("first_inertia", self.first_inertia),
+            ("last_inertia", self.last_inertia),
+            ("c_dstar", self.c_dstar),
+            ("c_euclid", self.c_euclid),
+            ("v_max", self.v_max.unwrap_or(0.0)),
+        ];
+        match named.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
+            Some((name, value)) => Err(GuidedSwarmError::Coefficient { name, value }),
+            None => Ok(()),
+        }
+    }
+
+    /// Inertia of candidate `index`: eq. (7).
+    fn inertia(&self, index: usize) -> f64 {
+        self.first_inertia
+            - (self.first_inertia - self.last_inertia) * (index as f64 / self.candidates as f64)
+    }
+}
+
+/// What the swarm sees of the place it walks through.
+pub struct Terrain<'a, G> {
+    /// Neighbours and step costs.
+    pub graph: &'a G,
+    /// Exact cost-to-go of a node (m); infinite where there is no way.
+    pub cost_to_go: &'a dyn Fn(usize) -> f64,
+    /// Straight distance from a node to the goal (m).
+    pub distance: &'a dyn Fn(usize) -> f64,
+    /// Whether a node is the goal.
+    pub is_goal: &'a dyn Fn(usize) -> bool,
+}
+
+/// The candidate paths of least cost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnPaths {
+    /// Their cost (m): eq. (10).
+    pub cost: f64,
+    /// All different ones, as nodes, in the order they were drawn.
+    pub paths: Vec<Vec<usize>>,
+    /// How many candidates were drawn.
+    pub candidates: usize,
+    /// How often a dead point made a candidate step back.
+    pub dead_points: usize,
+}
+
+/// Draws candidate paths from `start` and keeps the best; `None` when `keep_going`, asked before each, says
+/// no, or when `start` has no way to the goal.
+///
+/// A candidate goes from node to node; eq. (5) gives each free neighbour a velocity, with its cost-to-go as
+/// position, and the one with the least position minus velocity is next. Where none is left it steps back.
+/// Each candidate has a random stream of its own, so the result depends on the seed alone.
+pub fn draw_paths<G: Graph>(
+    terrain: &Terrain<'_, G>,
+    start: usize,
+    settings: &GuidedSwarmSettings,
+    seed: u64,
+    keep_going: &dyn Fn() -> bool,
+) -> Option<DrawnPaths> {
+    let mut best = DrawnPaths { cost: f64::INFINITY, paths: Vec::new(), candidates: 0, dead_points: 0 };
+    let mut known = HashSet::new();
+    let mut visited = Visited { by: vec![0; terrain.graph.len()], walker: 0 };
+    for index in 0..settings.candidates {
+        if !keep_going() {
+            return None;
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        rng.set_stream(index as u64);
+        let walk = Walk { terrain, settings, inertia: settings.inertia(index) };
+        visited.walker += 1;
+        let candidate = walk.candidate(start, &mut visited, &mut rng)?;
+        best.candidates += 1;
+        best.dead_points += candidate.dead_points;
+        let slack = EQUAL_COST * candidate.cost.min(best.cost);
+        if candidate.cost < best.cost - slack || best.paths.is_empty() {
+            best.cost = candidate.cost;
+            best.paths.clear();
+            known.clear();
+        }
+        if candidate.cost <= best.cost + slack && known.insert(candidate.nodes.clone()) {
+            best.paths.push(candidate.nodes);
+        }
+    }
+    Some(best)
+}
+
+/// Which candidate was last at each node: one array for all of them.
+struct Visited {
+    by: Vec<u32>,
+    walker: u32,
+}
+
+impl Visited {
+    fn mark(&mut self, node: usize) {
+        self.by[node] = self.walker;
+    }
+
+    fn contains(&self, node: usize) -> bool {
+        self.by[node] == self.walker
+    }
+}
+
+/// One candidate in the making.
+struct Walk<'a, G> {
+    terrain: &'a Terrain<'a, G>,
+    settings: &'a GuidedSwarmSettings,
+    inertia: f64,
+}
+
+struct Candidate {
+    nodes: Vec<usize>,
+    cost: f64,
+    dead_points: usize,
+}
+
+/// A place of the walk: the node, the velocity it was chosen with, and the cost so far.
+#[derive(Clone, Copy)]
+struct Footprint {
+    node: usize,
+    velocity: f64,
+    cost: f64,
+}
+
+impl<G: Graph> Walk<'_, G> {
+    /// Walks to the goal, stepping back from dead points; `None` if every way is used up.
+    fn candidate(&self, start: usize, visited: &mut Visited, rng: &mut ChaCha8Rng) -> Option<Candidate> {
+        visited.mark(start);
+        let mut trail = vec![Footprint { node: start, velocity: 0.0, cost: 0.0 }];
+        let mut open = Vec::with_capacity(8);
+        let mut dead_points = 0;
+        while let Some(&here) = trail.last() {
+            if (self.terrain.is_goal)(here.node) {
+                let nodes = trail.iter().map(|footprint| footprint.node).collect();
+                return Some(Candidate { nodes, cost: here.cost, dead_points });
+            }
+            open.clear();
+            self.terrain.graph.neighbours(here.node, |node, cost| {
+                let position = (self.terrain.cost_to_go)(node);
+                if cost.is_finite() && position.is_finite() && !visited.contains(node) {
+                    open.push((node, cost, position));
+                }
+            });
+            match self.step(&here, &open, rng) {
+                Some(next) => {
+                    visited.mark(next.node);
+                    trail.push(next);
+                }
+                None => {
+                    dead_points += 1;
+                    trail.pop();
+                }
+            }
+        }
+        None
+    }
+
+    /// The neighbour that the velocities choose: eq. (5) for each, then the least `position - velocity`.
+    fn step(&self, here: &Footprint, open: &[(usize, f64, f64)], rng: &mut ChaCha8Rng) -> Option<Footprint> {
+        let least = open.iter().map(|&(_, _, position)| position).fold(f64::INFINITY, f64::min);
+        let mut chosen: Option<(f64, Footprint)> = None;
+        for &(node, cost, position) in open {
+            let (r1, r2) = (unit(rng), unit(rng));
+            let pull = self.settings.c_dstar * r1 * (least - position)
+                + self.settings.c_euclid * r2 * ((self.terrain.distance)(node) - position);
+            let mut velocity = self.inertia * here.velocity + pull;
+            if let Some(v_max) = self.settings.v_max {
+                velocity = velocity.clamp(-v_max, v_max);
+            }
+            let rank = position - velocity;
+            if chosen.is_none_or(|(best, _)| rank < best) {
+                chosen = Some((rank, Footprint { node, velocity, cost: here.cost + cost }));
+            }
+        }
+        chosen.map(|(_, footprint)| footprint)
+    }
+}
+
+/// A number in [0, 1).
+fn unit(rng: &mut ChaCha8Rng) -> f64 {
+    (rng.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}

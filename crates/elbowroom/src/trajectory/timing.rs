@@ -1,0 +1,60 @@
+use super::Piece;
+use super::peak::{derivative, peak};
+use super::spline::{Via, durations_by_length, quintic_through};
+
+/// Rounds of evening out the pieces; more gain less than a percent.
+const ROUNDS: usize = 12;
+
+/// Room left below the limits for rounding in other people's arithmetic.
+const HEADROOM: f64 = 1.0 + 1e-9;
+
+/// The fastest a joint may move, all of it known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedLimits {
+    /// Greatest speed (rad/s).
+    pub velocity: f64,
+    /// Greatest acceleration (rad/s²).
+    pub acceleration: f64,
+    /// Greatest jerk (rad/s³).
+    pub jerk: f64,
+}
+
+/// Durations (s) of the pieces between `vias`, as short as this search finds under `limits`, joint by joint.
+///
+/// Pieces that press against a limit are given more time, the others less, a few rounds long; then all are
+/// stretched by what the worst one needs.
+pub fn fastest_durations(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
+    let mut durations = durations_by_length(vias, 1.0);
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    for _ in 0..ROUNDS {
+        let stretches: Vec<f64> =
+            quintic_through(vias, &durations).iter().map(|piece| stretch(piece, limits)).collect();
+        let worst = stretches.iter().copied().fold(0.0, f64::max) * HEADROOM;
+        let total = durations.iter().sum::<f64>() * worst;
+        if best.as_ref().is_none_or(|(least, _)| total < *least) {
+            best = Some((total, durations.iter().map(|d| d * worst).collect()));
+        }
+        for (duration, stretch) in durations.iter_mut().zip(&stretches) {
+            *duration *= (stretch / worst).clamp(0.1, 1.0).sqrt() * worst;
+        }
+    }
+    best.map_or(durations, |(_, durations)| durations)
+}
+
+/// By what factor `piece` must be slowed down to keep within `limits`; below 1 it could be faster.
+pub fn stretch(piece: &Piece<2>, limits: &[SpeedLimits; 2]) -> f64 {
+    piece
+        .coefficients
+        .iter()
+        .zip(limits)
+        .map(|(position, limit)| {
+            let velocity = derivative(position);
+            let acceleration = derivative(&velocity);
+            let jerk = derivative(&acceleration);
+            let speed = peak(&velocity, piece.duration) / limit.velocity;
+            let push = peak(&acceleration, piece.duration) / limit.acceleration;
+            let jolt = peak(&jerk, piece.duration) / limit.jerk;
+            speed.max(push.sqrt()).max(libm::cbrt(jolt))
+        })
+        .fold(0.0, f64::max)
+}

@@ -1,0 +1,210 @@
+//! Polynomials over time: end conditions, continuity, peaks, and the choice of vias.
+
+use elbowroom::arm::Configuration;
+use elbowroom::trajectory::{
+    Motion, MotionError, Piece, SpeedLimits, State, durations_by_length, fastest_durations, quintic_through,
+    random_vias, stretch, vias_at,
+};
+
+/// Seeded uniform numbers in [-1, 1).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn state(&mut self) -> State<2> {
+        let mut pair = |scale: f64| [self.next() * scale, self.next() * scale];
+        State { position: pair(3.0), velocity: pair(2.0), acceleration: pair(5.0), jerk: [0.0; 2] }
+    }
+
+    fn configurations(&mut self, count: usize) -> Vec<Configuration<2>> {
+        (0..count).map(|_| Configuration([self.next() * 3.0, self.next() * 2.0])).collect()
+    }
+}
+
+fn near(a: [f64; 2], b: [f64; 2], tolerance: f64) -> bool {
+    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
+}
+
+#[test]
+fn quintic_meets_its_six_end_conditions() {
+    let mut numbers = Numbers(1);
+    for _ in 0..10_000 {
+        let (from, to) = (numbers.state(), numbers.state());
+        let duration = 0.05 + 5.0 * numbers.next().abs();
+        let piece = Piece::quintic(2.0, duration, &from, &to);
+        let (a, b) = (piece.at(0.0), piece.at(duration));
+        let slack = 1e-9 * (1.0 + 1.0 / (duration * duration));
+        for (got, want) in [(a, from), (b, to)] {
+            assert!(near(got.position, want.position, slack));
+            assert!(near(got.velocity, want.velocity, slack));
+            assert!(near(got.acceleration, want.acceleration, slack * 10.0));
+        }
+    }
+}
+
+#[test]
+fn rest_to_rest_is_the_smooth_step() {
+    // 10 τ³ - 15 τ⁴ + 6 τ⁵ and its derivatives, whose peaks are known.
+    let (h, t) = (1.7, 2.3);
+    let piece = Piece::quintic(0.0, t, &State::rest([0.2, 0.0]), &State::rest([0.2 + h, -h]));
+    for i in 0..=100 {
+        let tau = f64::from(i) / 100.0;
+        let step = tau.powi(3) * (10.0 - 15.0 * tau + 6.0 * tau * tau);
+        assert!(near(piece.at(tau * t).position, [0.2 + h * step, -h * step], 1e-12));
+    }
+    let (velocity, acceleration, jerk) =
+        (15.0 / 8.0 * h / t, 10.0 / 3f64.sqrt() * h / t.powi(2), 60.0 * h / t.powi(3));
+    let only = |v, a, j| {
+        let limits = SpeedLimits { velocity: v, acceleration: a, jerk: j };
+        stretch(&piece, &[limits, limits])
+    };
+    assert!((only(velocity, 1e9, 1e9) - 1.0).abs() < 1e-12);
+    assert!(
+        (only(1e9, acceleration / 4.0, 1e9) - 2.0).abs() < 1e-12,
+        "twice as long for a quarter of the push"
+    );
+    assert!((only(1e9, 1e9, jerk / 8.0) - 2.0).abs() < 1e-12);
+}
+
+#[test]
+fn derivatives_are_derivatives() {
+    let mut numbers = Numbers(2);
+    let step = 1e-5;
+    for _ in 0..1000 {
+        let piece = Piece::quintic(0.0, 1.0, &numbers.state(), &numbers.state());
+        let s = 0.1 + 0.8 * numbers.next().abs();
+        let (before, at, after) = (piece.at(s - step), piece.at(s), piece.at(s + step));
+        for j in 0..2 {
+            let slope = |f: fn(&State<2>) -> [f64; 2]| (f(&after)[j] - f(&before)[j]) / (2.0 * step);
+            let scale = 1e-5 * (1.0 + at.jerk[j].abs() * 10.0 + 3000.0);
+            assert!((slope(|s| s.position) - at.velocity[j]).abs() < scale);
+            assert!((slope(|s| s.velocity) - at.acceleration[j]).abs() < scale);
+            assert!((slope(|s| s.acceleration) - at.jerk[j]).abs() < scale);
+        }
+    }
+}
+
+#[test]
+fn motion_through_vias_passes_them_and_is_smooth() {
+    let mut numbers = Numbers(3);
+    for case in 0..2000 {
+        let places = numbers.configurations(2 + case % 9);
+        let vias = vias_at(&places);
+        let durations = durations_by_length(&vias, 10.0);
+        let motion = Motion::new(quintic_through(&vias, &durations)).unwrap();
+        assert!((motion.duration() - 10.0).abs() < 1e-9);
+        assert!(near(motion.at(0.0).position, places[0].0, 0.0), "the start is exact");
+        assert!(near(motion.at(10.0).position, places[places.len() - 1].0, 1e-9));
+        assert!(near(motion.at(0.0).velocity, [0.0; 2], 0.0));
+        assert!(near(motion.at(10.0).velocity, [0.0; 2], 1e-9));
+        for (i, pair) in motion.pieces().windows(2).enumerate() {
+            let (end, begin) = (pair[0].at(pair[0].duration), pair[1].at(0.0));
+            assert!(near(end.position, places[i + 1].0, 1e-9));
+            assert!(near(end.position, begin.position, 1e-9));
+            assert!(near(end.velocity, begin.velocity, 1e-8));
+            assert!(near(end.acceleration, begin.acceleration, 1e-6));
+        }
+    }
+}
+
+#[test]
+fn between_stops_the_motion_is_straight() {
+    let mut numbers = Numbers(4);
+    for _ in 0..500 {
+        let places = numbers.configurations(2);
+        let vias = vias_at(&places);
+        let piece = quintic_through(&vias, &[1.5])[0];
+        for i in 0..=20 {
+            let q = piece.at(1.5 * f64::from(i) / 20.0).position;
+            let along: [f64; 2] = std::array::from_fn(|j| places[1].0[j] - places[0].0[j]);
+            let cross = (q[0] - places[0].0[0]) * along[1] - (q[1] - places[0].0[1]) * along[0];
+            assert!(cross.abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn repeated_vias_and_standing_still() {
+    let a = Configuration([0.1, 0.2]);
+    let b = Configuration([0.5, -0.2]);
+    assert_eq!(vias_at(&[a, a, b, b, b]).len(), 2);
+    let vias = vias_at(&[a, a]);
+    let durations = durations_by_length(&vias, 10.0);
+    let motion = Motion::new(quintic_through(&vias, &durations)).unwrap();
+    assert_eq!((motion.duration(), motion.at(3.0)), (0.0, State::rest(a.0)));
+}
+
+#[test]
+fn fastest_is_within_limits_and_close_to_them() {
+    let mut numbers = Numbers(5);
+    for case in 0..500 {
+        let vias = vias_at(&numbers.configurations(2 + case % 8));
+        let limit =
+            |scale: f64| SpeedLimits { velocity: scale, acceleration: 3.0 * scale, jerk: 20.0 * scale };
+        let limits = [limit(0.5 + numbers.next().abs()), limit(0.5 + numbers.next().abs())];
+        let durations = fastest_durations(&vias, &limits);
+        let pieces = quintic_through(&vias, &durations);
+        let worst = pieces.iter().map(|piece| stretch(piece, &limits)).fold(0.0, f64::max);
+        assert!(worst <= 1.0 && worst > 0.999, "worst stretch {worst}");
+        for piece in &pieces {
+            for i in 0..=200 {
+                let state = piece.at(piece.duration * f64::from(i) / 200.0);
+                for (j, limit) in limits.iter().enumerate() {
+                    assert!(state.velocity[j].abs() <= limit.velocity * (1.0 + 1e-12));
+                    assert!(state.acceleration[j].abs() <= limit.acceleration * (1.0 + 1e-12));
+                    assert!(state.jerk[j].abs() <= limit.jerk * (1.0 + 1e-12));
+                }
+            }
+        }
+        let proportional = durations_by_length(&vias, 1.0);
+        let stretched = quintic_through(&vias, &proportional);
+        let plain = stretched.iter().map(|piece| stretch(piece, &limits)).fold(0.0, f64::max);
+        assert!(durations.iter().sum::<f64>() <= plain * (1.0 + 1e-6), "evening out never costs time");
+    }
+}
+
+#[test]
+fn pieces_that_make_no_motion() {
+    let piece = |start: f64, duration: f64| Piece::<2> { start, duration, coefficients: [[0.0; 6]; 2] };
+    assert_eq!(Motion::<2>::new(vec![]), Err(MotionError::Empty));
+    assert!(matches!(
+        Motion::new(vec![piece(0.0, 1.0), piece(1.5, 1.0)]),
+        Err(MotionError::Gap { piece: 1, .. })
+    ));
+    assert!(matches!(
+        Motion::new(vec![piece(0.0, 1.0), piece(1.0, 0.0)]),
+        Err(MotionError::Duration { piece: 1, .. })
+    ));
+    assert!(matches!(Motion::new(vec![piece(0.0, -1.0)]), Err(MotionError::Duration { piece: 0, .. })));
+    assert!(matches!(Motion::new(vec![piece(0.0, f64::NAN)]), Err(MotionError::NotFinite { piece: 0 })));
+    let mut bad = piece(0.0, 1.0);
+    bad.coefficients[1][5] = f64::INFINITY;
+    assert_eq!(Motion::new(vec![bad]), Err(MotionError::NotFinite { piece: 0 }));
+    assert!(Motion::new(vec![piece(0.0, 0.0)]).is_ok(), "an arm that is already there");
+}
+
+#[test]
+fn random_vias_are_seeded_ordered_and_evenly_drawn() {
+    assert_eq!(random_vias(50, 5, 9), random_vias(50, 5, 9));
+    assert_ne!(random_vias(50, 5, 9), random_vias(50, 5, 10));
+    assert_eq!(random_vias(1, 5, 0), [0]);
+    assert_eq!(random_vias(2, 5, 0), [0, 1]);
+    assert_eq!(random_vias(4, 5, 0), [0, 1, 2, 3]);
+    assert!(random_vias(0, 5, 0).is_empty());
+    let mut counts = [0; 20];
+    for seed in 0..20_000 {
+        let vias = random_vias(20, 6, seed);
+        assert_eq!(vias.len(), 8);
+        assert!(vias.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!((vias[0], vias[7]), (0, 19));
+        vias.iter().for_each(|&place| counts[place] += 1);
+    }
+    for count in &counts[1..19] {
+        // 20,000 draws at 1/3 each: six standard deviations are 400.
+        assert!((count - 6667i32).abs() < 400, "{counts:?}");
+    }
+}
