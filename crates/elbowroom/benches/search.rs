@@ -1,5 +1,7 @@
 //! Cost-to-go on free square grids: from scratch, and repaired after a disc moved by a cell.
 
+#![expect(clippy::expect_used, reason = "a benchmark that cannot be set up may panic")]
+
 use std::hint::black_box;
 
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};

@@ -1,5 +1,7 @@
 //! D* against Dijkstra's algorithm, bit for bit, on random graphs that change.
 
+#![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
+
 use elbowroom::search::{Dstar, GoalError, Graph, NodeState, Progress, Until, dijkstra};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};

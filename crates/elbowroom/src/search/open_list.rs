@@ -66,7 +66,7 @@ impl OpenList {
         let first = *self.heap.first()?;
         let last = self.heap.pop()?;
         if !self.heap.is_empty() {
-            self.sift_down(last);
+            self.fill_root(last);
         }
         self.slots[first.node()] = ABSENT;
         Some((first.node(), first.key()))
@@ -85,20 +85,28 @@ impl OpenList {
         self.place(slot, entry);
     }
 
-    /// Moves `entry` from the root away to where it belongs.
-    fn sift_down(&mut self, entry: Entry) {
+    /// Fills the root's place: the least children move up, all the way, and `entry` goes where a leaf is missing.
+    ///
+    /// An entry from the end of the heap mostly belongs down there again, so it is not compared on the way.
+    fn fill_root(&mut self, entry: Entry) {
         let mut slot = 0;
         loop {
-            let children = slot * ARITY + 1;
-            let end = (children + ARITY).min(self.heap.len());
-            let Some(least) = (children..end).min_by_key(|&child| self.heap[child]) else { break };
-            if entry < self.heap[least] {
-                break;
-            }
+            let first = slot * ARITY + 1;
+            let least = match self.heap.get(first..self.heap.len().min(first + ARITY)) {
+                // Without branches, which could not be predicted.
+                Some(&[a, b, c, d]) => {
+                    let (left, right) = (usize::from(b < a), 2 + usize::from(d < c));
+                    first + if d.min(c) < b.min(a) { right } else { left }
+                }
+                Some(rest) if !rest.is_empty() => {
+                    (1..rest.len()).fold(first, |l, i| if rest[i] < self.heap[l] { first + i } else { l })
+                }
+                _ => break,
+            };
             self.place(slot, self.heap[least]);
             slot = least;
         }
-        self.place(slot, entry);
+        self.sift_up(slot, entry);
     }
 
     fn place(&mut self, slot: usize, entry: Entry) {
