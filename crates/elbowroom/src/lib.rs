@@ -7,8 +7,11 @@
 //! `geometry < grid < search < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
 
 pub mod arm;
+pub mod free_space;
 pub mod geometry;
 pub mod grid;
+pub mod path;
+pub mod planners;
 pub mod scene;
 pub mod search;
 pub mod swarm;

@@ -87,6 +87,36 @@ impl Polygon {
         self.edges().map(|edge| edge.distance_to_segment(segment)).fold(f64::INFINITY, f64::min)
     }
 
+    /// Distance from the polygon to `segment` (m), negative by the depth: how far the segment's innermost point
+    /// lies from the boundary, to a millionth of the segment's length.
+    pub fn signed_distance_to_segment(&self, segment: Segment) -> f64 {
+        let distance = self.distance_to_segment(segment);
+        if distance > 0.0 { distance } else { -self.depth_of_segment(segment) }
+    }
+
+    /// By bisection: depth changes along the segment no faster than the place does.
+    fn depth_of_segment(&self, segment: Segment) -> f64 {
+        let length = segment.a.distance(segment.b);
+        let depth = |fraction: f64| {
+            let point = segment.a + (segment.b - segment.a) * fraction;
+            let to_boundary =
+                self.edges().map(|edge| edge.distance_to_point(point)).fold(f64::INFINITY, f64::min);
+            if self.contains(point) { to_boundary } else { -to_boundary }
+        };
+        let mut deepest = depth(0.0).max(depth(1.0)).max(0.0);
+        let mut stretches = vec![(0.0, 1.0)];
+        while let Some((from, to)) = stretches.pop() {
+            let middle = (from + to) / 2.0;
+            let here = depth(middle);
+            deepest = deepest.max(here);
+            if here + length * (to - from) / 2.0 > deepest + 1e-6 * length && to - from > 1e-9 {
+                stretches.push((from, middle));
+                stretches.push((middle, to));
+            }
+        }
+        deepest
+    }
+
     fn first_meeting_edges(&self) -> Option<(usize, usize)> {
         let edges: Vec<Segment> = self.edges().collect();
         let n = edges.len();

@@ -161,7 +161,7 @@ impl Grid {
 
     /// Distance to a neighbour in `direction` (m): `step`, or `step * √2` on a diagonal.
     pub fn neighbour_distance(&self, direction: usize) -> f64 {
-        if direction % 2 == 0 { self.step } else { self.step * std::f64::consts::SQRT_2 }
+        if direction.is_multiple_of(2) { self.step } else { self.step * std::f64::consts::SQRT_2 }
     }
 
     /// The up to eight neighbours of `cell`, each with its distance (m).

@@ -139,11 +139,8 @@ fn step_between(arm: &TwoLinkArm, from: &Configuration<2>, to: &Configuration<2>
 }
 
 fn jump_between(from: &Configuration<2>, to: &Configuration<2>, step: &[f64; 2]) -> Option<JumpKind> {
-    if let Some(j) = step.iter().position(|angle| angle.abs() > PI) {
-        return Some(JumpKind::Stop { joint: j + 1 });
-    }
     match (Posture::of(from), Posture::of(to)) {
         (Some(a), Some(b)) if a != b => Some(JumpKind::Posture),
-        _ => None,
+        _ => step.iter().position(|angle| angle.abs() > PI).map(|j| JumpKind::Stop { joint: j + 1 }),
     }
 }

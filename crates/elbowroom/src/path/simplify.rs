@@ -33,12 +33,7 @@ pub fn simplify(arm: &TwoLinkArm, path: &JointPath, tolerance: f64) -> Vec<usize
 
 /// How far elbow or tip at `q` are from where the straight turn from `from` to `to` has them when it is
 /// nearest to `q` in configuration space (m).
-fn deviation(
-    arm: &TwoLinkArm,
-    from: &Configuration<2>,
-    to: &Configuration<2>,
-    q: &Configuration<2>,
-) -> f64 {
+fn deviation(arm: &TwoLinkArm, from: &Configuration<2>, to: &Configuration<2>, q: &Configuration<2>) -> f64 {
     let along = [to.0[0] - from.0[0], to.0[1] - from.0[1]];
     let squared = along[0] * along[0] + along[1] * along[1];
     let fraction = if squared > 0.0 {

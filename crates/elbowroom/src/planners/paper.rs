@@ -12,9 +12,7 @@ use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
 use crate::scene::{Place, Scene, Task};
 use crate::search::{Dstar, GoalError, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmError, GuidedSwarmSettings, Terrain, draw_paths};
-use crate::trajectory::{
-    Motion, MotionError, durations_by_length, quintic_through, random_vias, vias_at,
-};
+use crate::trajectory::{Motion, MotionError, durations_by_length, quintic_through, random_vias, vias_at};
 
 /// Expansions of D* between two looks at the monitor: a few milliseconds.
 const EXPANSIONS_PER_LOOK: usize = 10_000;

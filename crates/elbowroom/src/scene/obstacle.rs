@@ -19,12 +19,20 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// Distance from the obstacle to `segment` (m): 0 or less when they touch. For circles the negative
-    /// value is the depth.
+    /// Distance from the obstacle to `segment` (m): 0 or less when they touch.
     pub fn distance_to_segment(&self, segment: Segment) -> f64 {
         match &self.shape {
             Shape::Circle(circle) => circle.signed_distance_to_segment(segment),
             Shape::Polygon(polygon) => polygon.distance_to_segment(segment),
+        }
+    }
+
+    /// Distance from the obstacle to `segment` (m), negative by the depth: how far the segment's innermost point
+    /// lies from the boundary. Slower than [`distance_to_segment`](Self::distance_to_segment) for polygons.
+    pub fn signed_distance_to_segment(&self, segment: Segment) -> f64 {
+        match &self.shape {
+            Shape::Circle(circle) => circle.signed_distance_to_segment(segment),
+            Shape::Polygon(polygon) => polygon.signed_distance_to_segment(segment),
         }
     }
 }

@@ -1,0 +1,15 @@
+//! Where the tip may stand: the free Cartesian space of the paper's section 4, as a map per posture over the
+//! scene's grid.
+
+mod arc;
+mod fill;
+mod fill_shape;
+mod map;
+mod place;
+mod space;
+mod state;
+
+pub use map::{FreeSpaceMap, Reasons};
+pub use place::{NotFree, Reason, configurations};
+pub use space::{Cases, FreeSpace};
+pub use state::{CONTACT_FLOOR, CellState, state_of};
