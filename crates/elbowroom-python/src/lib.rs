@@ -1,6 +1,31 @@
-//! The Python border of `elbowroom`: conversion and error mapping, nothing else.
+//! Border between the core and Python: conversion and error mapping, nothing else. The GIL is released while the
+//! core works, Ctrl-C stops it, and no panic gets across as one.
+
+mod errors;
+mod free_space;
+mod motion;
+mod paper;
+mod scene;
+mod scene_parts;
+mod watch;
 
 use pyo3::prelude::*;
 
 #[pymodule]
-mod _core {}
+mod _core {
+    #[pymodule_export]
+    use super::free_space::{FreeSpace, free_space};
+    #[pymodule_export]
+    use super::motion::Motion;
+    #[pymodule_export]
+    use super::paper::{PaperPlan, plan_as_in_paper};
+    #[pymodule_export]
+    use super::scene::{Scene, SceneFile};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

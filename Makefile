@@ -1,0 +1,36 @@
+# Everything is set up inside the clone: a virtual environment in .venv, pictures and tables in out.
+PYTHON ?= python3.11
+BIN := .venv/bin
+
+.PHONY: demo test setup bench clean
+
+demo: setup
+	$(BIN)/elbowroom paper --out out/paper
+	@echo "Open out/paper/report.md, or the pictures in out/paper/paper-standin."
+
+test: setup
+	cargo fmt --check
+	cargo clippy --workspace --all-targets -- -D warnings
+	cargo clippy -p elbowroom --lib --no-default-features -- -D warnings
+	cargo test --workspace --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
+	$(BIN)/ruff format --check python tests
+	$(BIN)/ruff check python tests
+	$(BIN)/mypy
+	MYPYPATH=python $(BIN)/python -m mypy.stubtest elbowroom._core
+	$(BIN)/python -m pytest
+
+bench:
+	cargo bench --workspace
+
+# Builds the extension when its sources changed; a complaint about a missing tool is one line.
+setup:
+	@command -v cargo >/dev/null 2>&1 || { echo "error: no Rust toolchain found; install Rust 1.89 or newer from https://rustup.rs" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { echo "error: $(PYTHON) is not Python 3.11 or newer; install it, or name another: make PYTHON=python3.12 $(MAKECMDGOALS)" >&2; exit 1; }
+	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev
+	@$(BIN)/maturin develop --release --quiet
+
+clean:
+	rm -rf .venv out target

@@ -1,0 +1,145 @@
+//! From the core's typed errors to the classes of `elbowroom.errors`.
+
+use elbowroom::arm::Configuration;
+use elbowroom::free_space::{NotFree, Reason};
+use elbowroom::planners::PaperError;
+use elbowroom::scene::{Place, SceneError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+/// The exception `elbowroom.errors.<class>(message, **fields)`.
+fn exception<'py>(
+    py: Python<'py>,
+    class: &str,
+    message: &str,
+    fields: impl FnOnce(&Bound<'py, PyDict>) -> PyResult<()>,
+) -> PyErr {
+    let made = || -> PyResult<Bound<'py, PyAny>> {
+        let kwargs = PyDict::new(py);
+        fields(&kwargs)?;
+        py.import("elbowroom.errors")?.getattr(class)?.call((message,), Some(&kwargs))
+    };
+    match made() {
+        Ok(value) => PyErr::from_value(value),
+        Err(error) => error,
+    }
+}
+
+/// A number or name that makes no sense; `setting` is its name.
+pub(crate) fn setting(py: Python<'_>, setting: &str, message: &str) -> PyErr {
+    exception(py, "BadSetting", message, |fields| fields.set_item("setting", setting))
+}
+
+/// A part of a scene built in code that makes no sense; `key` names it as a scene file would.
+pub(crate) fn part(py: Python<'_>, key: &str, message: &str) -> PyErr {
+    exception(py, "SceneError", &format!("{key}: {message}"), |fields| fields.set_item("key", key))
+}
+
+/// Something that cannot happen did.
+pub(crate) fn internal(py: Python<'_>, message: &str) -> PyErr {
+    exception(py, "InternalError", &format!("a bug in elbowroom: {message}"), |_| Ok(()))
+}
+
+/// The timeout, once it is known to be one.
+pub(crate) fn timeout(seconds: Option<f64>) -> PyResult<Option<f64>> {
+    match seconds {
+        Some(s) if s.is_nan() || s < 0.0 => {
+            let message = format!("timeout is {s} s, it must not be negative");
+            Err(Python::attach(|py| setting(py, "timeout", &message)))
+        }
+        other => Ok(other),
+    }
+}
+
+/// The task's `end` (start or goal) is not free.
+pub(crate) fn not_free(py: Python<'_>, task: &str, end: &str, refused: &NotFree) -> PyErr {
+    exception(py, "NotFree", &format!("{end}: {refused}"), |fields| {
+        fields.set_item("task", task)?;
+        fields.set_item("end", end)?;
+        match refused.place {
+            Place::Tip(tip) => fields.set_item("tip", (tip.x, tip.y))?,
+            Place::Configuration(Configuration([q1, q2])) => fields.set_item("configuration", (q1, q2))?,
+        }
+        let reasons = PyList::empty(py);
+        for (posture, reason) in &refused.reasons {
+            reasons.append(reason_fields(py, posture.map(|p| p.name()), reason)?)?;
+        }
+        fields.set_item("reasons", reasons)?;
+        fields.set_item("nearest_free", refused.nearest_free.map(|p| (p.x, p.y)))
+    })
+}
+
+fn reason_fields<'py>(
+    py: Python<'py>,
+    posture: Option<&str>,
+    reason: &Reason,
+) -> PyResult<Bound<'py, PyDict>> {
+    let fields = PyDict::new(py);
+    fields.set_item("posture", posture)?;
+    match reason {
+        Reason::OutOfReach { distance, nearest, farthest } => {
+            fields.set_item("reason", "out_of_reach")?;
+            fields.set_item("distance", distance)?;
+            fields.set_item("nearest", nearest)?;
+            fields.set_item("farthest", farthest)?;
+        }
+        Reason::JointLimit { joint, angle, .. } => {
+            fields.set_item("reason", "joint_limit")?;
+            fields.set_item("joint", joint)?;
+            fields.set_item("angle", angle)?;
+        }
+        Reason::Collision { link, obstacle, name, depth } => {
+            fields.set_item("reason", "collision")?;
+            fields.set_item("link", link)?;
+            fields.set_item("obstacle", obstacle)?;
+            fields.set_item("name", name)?;
+            fields.set_item("depth", depth)?;
+        }
+    }
+    Ok(fields)
+}
+
+/// Time ran out, in whatever was being done.
+pub(crate) fn timed_out(py: Python<'_>, timeout: Option<f64>) -> PyErr {
+    let message = match timeout {
+        Some(seconds) => format!("nothing found within the timeout of {seconds} s"),
+        None => "stopped".to_owned(),
+    };
+    exception(py, "TimedOut", &message, |fields| fields.set_item("timeout", timeout))
+}
+
+/// A task that the scene does not have.
+pub(crate) fn unknown_task(py: Python<'_>, name: &str, known: Vec<String>) -> PyErr {
+    let list = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    let message = format!("no task is called '{name}'; tasks of this scene: {list}");
+    exception(py, "UnknownTask", &message, |fields| {
+        fields.set_item("name", name)?;
+        fields.set_item("known", known)
+    })
+}
+
+/// Why the paper's system has no plan.
+pub(crate) fn paper(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PaperError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        PaperError::Swarm(_) => setting(py, "swarm", &message),
+        PaperError::Duration { .. } => setting(py, "duration", &message),
+        PaperError::Start(refused) => not_free(py, task, "start", refused),
+        PaperError::Goal(refused) => not_free(py, task, "goal", refused),
+        PaperError::NotFound { step } => {
+            exception(py, "NotFound", &message, |fields| fields.set_item("step", step))
+        }
+        PaperError::Stopped => timed_out(py, timeout),
+        PaperError::Follow(_) | PaperError::GoalNode(_) | PaperError::Motion(_) => internal(py, &message),
+    }
+}
+
+/// A scene file that is none.
+pub(crate) fn scene_file(py: Python<'_>, error: &SceneError) -> PyErr {
+    exception(py, "SceneError", &error.to_string(), |fields| {
+        fields.set_item("key", &error.key)?;
+        fields.set_item("file", &error.file)?;
+        fields.set_item("line", error.location.map(|at| at.line))?;
+        fields.set_item("column", error.location.map(|at| at.column))
+    })
+}

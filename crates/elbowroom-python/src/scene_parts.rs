@@ -1,0 +1,146 @@
+//! The parts of a scene as the dataclasses of `elbowroom.scene` hold them.
+
+use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::grid::Grid;
+use elbowroom::scene::{Obstacle, Place, Shape, Task, TaskPosture};
+use pyo3::prelude::*;
+
+use crate::errors;
+
+#[derive(FromPyObject)]
+pub(crate) struct JointPart {
+    continuous: bool,
+    min: Option<f64>,
+    max: Option<f64>,
+    velocity: Option<f64>,
+    acceleration: Option<f64>,
+    jerk: Option<f64>,
+}
+
+#[derive(FromPyObject)]
+pub(crate) struct ArmPart {
+    links: Vec<f64>,
+    joints: Vec<JointPart>,
+    half_width: f64,
+    base: [f64; 2],
+}
+
+#[derive(FromPyObject)]
+pub(crate) struct GridPart {
+    x: [f64; 2],
+    y: [f64; 2],
+    step: f64,
+}
+
+#[derive(FromPyObject)]
+pub(crate) enum ObstaclePart {
+    Circle { center: [f64; 2], radius: f64, name: Option<String> },
+    Polygon { vertices: Vec<[f64; 2]>, name: Option<String> },
+}
+
+#[derive(FromPyObject)]
+pub(crate) enum PlacePart {
+    Configuration { q: [f64; 2] },
+    Tip([f64; 2]),
+}
+
+#[derive(FromPyObject)]
+pub(crate) struct TaskPart {
+    start: PlacePart,
+    goal: PlacePart,
+    posture: String,
+}
+
+fn point([x, y]: [f64; 2]) -> Point {
+    Point::new(x, y)
+}
+
+impl JointPart {
+    fn build(&self, py: Python<'_>, key: &str) -> PyResult<Joint> {
+        let limits = match (self.continuous, self.min, self.max) {
+            (true, None, None) => JointLimits::Continuous,
+            (false, Some(min), Some(max)) => {
+                JointLimits::range(min, max).map_err(|error| errors::part(py, key, &error.to_string()))?
+            }
+            _ => return Err(errors::part(py, key, "either continuous=True, or min and max")),
+        };
+        for (name, limit) in
+            [("velocity", self.velocity), ("acceleration", self.acceleration), ("jerk", self.jerk)]
+        {
+            if limit.is_some_and(|limit| !(limit.is_finite() && limit > 0.0)) {
+                let key = format!("{key}.{name}");
+                return Err(errors::part(py, &key, "must be finite and greater than 0"));
+            }
+        }
+        let motion =
+            MotionLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk };
+        Ok(Joint { limits, motion })
+    }
+}
+
+impl ArmPart {
+    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<TwoLinkArm> {
+        let (Ok(lengths), [first, second]) = (<[f64; 2]>::try_from(self.links.as_slice()), &self.joints[..])
+        else {
+            let message = format!(
+                "{} links and {} joints; this version plans arms of two links and two joints",
+                self.links.len(),
+                self.joints.len()
+            );
+            return Err(errors::part(py, "arm", &message));
+        };
+        let joints = [first.build(py, "arm.joints[0]")?, second.build(py, "arm.joints[1]")?];
+        TwoLinkArm::new(point(self.base), lengths, self.half_width, joints)
+            .map_err(|error| errors::part(py, "arm", &error.to_string()))
+    }
+}
+
+impl GridPart {
+    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Grid> {
+        Grid::new(self.x, self.y, self.step).map_err(|error| errors::part(py, "grid", &error.to_string()))
+    }
+}
+
+impl ObstaclePart {
+    pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<Obstacle> {
+        let refused = |message: String| errors::part(py, &format!("obstacles[{index}]"), &message);
+        Ok(match self {
+            Self::Circle { center, radius, name } => {
+                let circle =
+                    Circle::new(point(center), radius).map_err(|error| refused(error.to_string()))?;
+                Obstacle { name, shape: Shape::Circle(circle) }
+            }
+            Self::Polygon { vertices, name } => {
+                let polygon = Polygon::new(vertices.into_iter().map(point).collect())
+                    .map_err(|error| refused(error.to_string()))?;
+                Obstacle { name, shape: Shape::Polygon(polygon) }
+            }
+        })
+    }
+}
+
+impl PlacePart {
+    fn build(&self) -> Place {
+        match *self {
+            Self::Configuration { q } => Place::Configuration(Configuration(q)),
+            Self::Tip(tip) => Place::Tip(point(tip)),
+        }
+    }
+}
+
+impl TaskPart {
+    pub(crate) fn build(&self, py: Python<'_>, name: String) -> PyResult<Task> {
+        let posture = match self.posture.as_str() {
+            "up" => TaskPosture::Up,
+            "down" => TaskPosture::Down,
+            "any" => TaskPosture::Any,
+            "keep" => TaskPosture::Keep,
+            other => {
+                let message = format!("'{other}'; up, down, any or keep");
+                return Err(errors::part(py, &format!("tasks.{name}.posture"), &message));
+            }
+        };
+        Ok(Task { start: self.start.build(), goal: self.goal.build(), posture, name })
+    }
+}

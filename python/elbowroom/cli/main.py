@@ -1,0 +1,44 @@
+"""The program ``elbowroom``."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from elbowroom.cli.map_command import map_command
+from elbowroom.cli.paper_command import paper_command
+from elbowroom.cli.plan_command import plan_command
+
+app = typer.Typer(
+    name="elbowroom",
+    help="Plan motions for planar robot arms.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    epilog="Exit codes: 0 done, 1 proved that there is no path, 2 bad input, 3 nothing found in time, 4 not safe.",
+)
+app.command("plan")(plan_command)
+app.command("map")(map_command)
+app.command("paper")(paper_command)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        typer.echo(f"elbowroom {version('elbowroom')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")] = False,
+) -> None:
+    pass
+
+
+def main() -> None:
+    """Run the program."""
+    app()

@@ -1,0 +1,47 @@
+"""``elbowroom map``"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elbowroom.cli.failure import reported
+
+
+def map_command(
+    scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
+    out: Annotated[Path | None, typer.Option(help="Folder for the pictures of the maps.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Map where the tip may stand, per posture, and why it may not elsewhere."""
+    with reported():
+        import json
+
+        from elbowroom.cli.progress import progress
+        from elbowroom.free_space import free_space
+        from elbowroom.scene import Scene
+
+        loaded = Scene.load(scene)
+        with progress() as show:
+            show("free_space")
+            space = free_space(loaded)
+            written: list[Path] = []
+            if out is not None:
+                from elbowroom import figures
+
+                show("drawing")
+                for posture in ("elbow-up", "elbow-down"):
+                    figure = figures.posture_map(loaded, space, posture=posture)
+                    written.append(figures.save(figure, out / f"free_space_{posture.replace('-', '_')}.png"))
+                written.append(figures.save(figures.union_map(loaded, space), out / "free_space_union.png"))
+        from elbowroom.cli.map_table import as_table, summary
+
+        report = summary(space)
+        if as_json:
+            typer.echo(json.dumps({"scene": str(scene), **report, "written": [str(path) for path in written]}))
+            return
+        typer.echo(as_table(report))
+        for path in written:
+            typer.echo(f"wrote {path}")

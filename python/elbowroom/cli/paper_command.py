@@ -1,0 +1,31 @@
+"""``elbowroom paper``"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elbowroom.cli.failure import reported
+
+
+def paper_command(
+    out: Annotated[Path, typer.Option(help="Folder for the pictures and report.md.")] = Path("out/paper"),
+    seed: Annotated[int, typer.Option(help="Seed of the runs that are drawn.")] = 0,
+    seeds: Annotated[int, typer.Option(min=1, help="How many seeds the counts are over.")] = 100,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Redo the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""
+    with reported():
+        import json
+
+        from elbowroom.cli.progress import progress
+        from elbowroom.paper import reproduce
+
+        with progress() as show:
+            report = reproduce(out, seed=seed, seeds=seeds, show=show)
+        if as_json:
+            typer.echo(json.dumps({"report": str(report), "pictures": str(out)}))
+        else:
+            typer.echo(f"wrote {report}; the pictures are in the folders beside it")

@@ -1,0 +1,105 @@
+"""Paths in the plane, and the arm that follows them: the paper's figures 6 to 8 and 13 to 15."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from elbowroom.figures.style import (
+    CM,
+    FREE,
+    INK,
+    LINK_1,
+    LINK_2,
+    PATH,
+    SMOOTHED,
+    legend_beside,
+    mark_base,
+    mark_ends,
+    plane,
+)
+from elbowroom.free_space import FreeSpace
+from elbowroom.plan import Floats, Plan
+
+STILLS = 25
+"""How many times the arm is drawn along its motion."""
+
+
+def tip_path(plan: Plan, space: FreeSpace) -> Figure:
+    """Return the tip's path over the free grid points, with the other paths of the same cost behind it."""
+    title = f"task '{plan.task}': {plan.planner} path, {plan.cost * CM:.4f} cm"
+    figure, axes = plane(title, plan.scene)
+    ys, xs = np.nonzero(space.union)
+    axes.plot(space.x[xs] * CM, space.y[ys] * CM, ".", color=FREE, markersize=1.5, zorder=1, label="free grid point")
+    others = plan.equal_paths[1:]
+    for i, path in enumerate(others):
+        label = f"{len(others)} other paths of this cost" if i == 0 else None
+        _line(axes, path, color=PATH, linewidth=0.8, alpha=0.35, zorder=4, label=label)
+    _line(axes, plan.tip_path, color=PATH, linewidth=2.2, zorder=5, label="path")
+    _ends(axes, plan)
+    mark_base(axes, plan.scene)
+    legend_beside(axes)
+    return figure
+
+
+def smoothed_path(plan: Plan) -> Figure:
+    """Return the tip's way along the quintic pieces, with the path and the via points that it was led through."""
+    title = f"task '{plan.task}': quintic pieces, {plan.motion.duration:g} s"
+    figure, axes = plane(_with_verdict(title, plan), plan.scene)
+    samples = plan.at(np.linspace(0.0, plan.motion.duration, 2001))
+    _line(axes, plan.tip_path, color=PATH, linewidth=1.2, linestyle="--", zorder=4, label="path")
+    _line(axes, samples.tip, color=SMOOTHED, linewidth=2.2, zorder=5, label="smoothed")
+    vias = plan.tip_path[plan.vias] * CM
+    axes.plot(
+        vias[:, 0], vias[:, 1], "D", color="white", markeredgecolor=INK, markersize=5, zorder=6, label="via point",
+        linestyle="none",
+    )
+    _ends(axes, plan)
+    mark_base(axes, plan.scene)
+    legend_beside(axes)
+    return figure
+
+
+def arm_tracking(plan: Plan) -> Figure:
+    """Return the arm at instants along the motion: link 1 red, link 2 green, darker with time."""
+    title = f"task '{plan.task}': the arm on its way"
+    figure, axes = plane(_with_verdict(title, plan), plan.scene)
+    samples = plan.at(np.linspace(0.0, plan.motion.duration, STILLS))
+    base = np.asarray(plan.scene.arm.base) * CM
+    for i, (elbow, tip) in enumerate(zip(samples.elbow * CM, samples.tip * CM, strict=True)):
+        strength = 0.25 + 0.75 * i / max(STILLS - 1, 1)
+        axes.plot(*zip(base, elbow, strict=True), color=LINK_1, linewidth=1.6, alpha=strength, zorder=4)
+        axes.plot(*zip(elbow, tip, strict=True), color=LINK_2, linewidth=1.6, alpha=strength, zorder=4)
+    way = plan.at(np.linspace(0.0, plan.motion.duration, 2001)).tip
+    _line(axes, way, color=SMOOTHED, linewidth=1.4, zorder=5, label="tip")
+    _ends(axes, plan)
+    mark_base(axes, plan.scene)
+    handles, labels = axes.get_legend_handles_labels()
+    links = [Line2D([], [], color=LINK_1, label="link 1"), Line2D([], [], color=LINK_2, label="link 2")]
+    axes.legend(
+        [*links, *handles],
+        ["link 1", "link 2", *labels],
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        borderaxespad=0.0,
+        fontsize=9,
+        frameon=False,
+    )
+    return figure
+
+
+def _with_verdict(title: str, plan: Plan) -> str:
+    if plan.verdict is None:
+        return f"{title} (not verified)"
+    return f"{title} (verified)" if plan.verdict["safe"] else f"{title} (NOT SAFE)"
+
+
+def _ends(axes: Axes, plan: Plan) -> None:
+    start, goal = plan.tip_path[0], plan.tip_path[-1]
+    mark_ends(axes, (start[0], start[1]), (goal[0], goal[1]))
+
+
+def _line(axes: Axes, points: Floats, **style: object) -> None:
+    axes.plot(points[:, 0] * CM, points[:, 1] * CM, solid_capstyle="round", **style)  # type: ignore[arg-type]

@@ -1,0 +1,101 @@
+"""How pictures look: one palette (Okabe and Ito, told apart by colour-blind readers), one unit, one way to draw a
+scene."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle as CirclePatch
+from matplotlib.patches import Polygon as PolygonPatch
+
+from elbowroom.scene import Circle, Scene
+
+CM = 100.0
+"""Pictures show centimetres, as the paper does."""
+
+LINK_1 = "#D55E00"
+LINK_2 = "#009E73"
+PATH = "#0072B2"
+SMOOTHED = "#CC79A7"
+START = "#E69F00"
+GOAL = "#56B4E9"
+OBSTACLE = "#404040"
+FREE = "#9CCDE8"
+LIMIT = "#F6E3B4"
+COLLISION = "#D9A5C2"
+OUT_OF_REACH = "#F2F2F2"
+INK = "#222222"
+
+
+def new_figure(width: float = 6.4, height: float = 5.2) -> tuple[Figure, Axes]:
+    """Return an empty figure of that size (inches) and its axes."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    return figure, figure.add_subplot()
+
+
+def plane(title: str, scene: Scene) -> tuple[Figure, Axes]:
+    """Return a figure of the plane of ``scene``'s grid, both axes in the same scale, the obstacles as large as they
+    are."""
+    figure, axes = new_figure(width=7.2)
+    axes.set_aspect("equal")
+    axes.set_xlim(scene.grid.x[0] * CM, scene.grid.x[1] * CM)
+    axes.set_ylim(scene.grid.y[0] * CM, scene.grid.y[1] * CM)
+    axes.set_xlabel("x (cm)")
+    axes.set_ylabel("y (cm)")
+    axes.set_title(title, fontsize=11)
+    draw_obstacles(axes, scene)
+    return figure, axes
+
+
+def draw_obstacles(axes: Axes, scene: Scene) -> None:
+    """Draw the obstacles of ``scene``."""
+    for i, obstacle in enumerate(scene.obstacles):
+        label = "obstacle" if i == 0 else None
+        if isinstance(obstacle, Circle):
+            center = (obstacle.center[0] * CM, obstacle.center[1] * CM)
+            axes.add_patch(
+                CirclePatch(center, obstacle.radius * CM, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
+            )
+        else:
+            corners = [(x * CM, y * CM) for x, y in obstacle.vertices]
+            axes.add_patch(
+                PolygonPatch(corners, closed=True, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
+            )
+
+
+def mark_ends(axes: Axes, start: tuple[float, float], goal: tuple[float, float]) -> None:
+    """Mark start and goal (m)."""
+    for (x, y), marker, colour, label in ((start, "o", START, "start"), (goal, "*", GOAL, "goal")):
+        axes.plot(
+            x * CM,
+            y * CM,
+            marker,
+            color=colour,
+            markeredgecolor=INK,
+            markersize=9 if marker == "o" else 14,
+            linestyle="none",
+            zorder=6,
+            label=label,
+        )
+
+
+def mark_base(axes: Axes, scene: Scene) -> None:
+    """Mark the base of the arm."""
+    axes.plot(
+        scene.arm.base[0] * CM, scene.arm.base[1] * CM, "s", color=INK, markersize=6, zorder=6, label="base",
+        linestyle="none",
+    )
+
+
+def legend_beside(axes: Axes) -> None:
+    """Put the legend outside, where it hides nothing."""
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, fontsize=9, frameon=False)
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write ``figure`` to ``path`` and return it."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)
+    return path

@@ -1,0 +1,196 @@
+"""From a task to a plan."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from elbowroom import _core
+from elbowroom.errors import BadSetting, NotFree, UnknownTask
+from elbowroom.scene import Scene
+
+PaperPlanner = Literal["dstar-pso", "dstar"]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """A motion at instants ``t`` (s): joint positions, velocities, accelerations, jerks (rad, rad/s, ...) and elbow and
+    tip (m), shape ``(n, 2)`` each."""
+
+    t: Floats
+    q: Floats
+    v: Floats
+    a: Floats
+    j: Floats
+    elbow: Floats
+    tip: Floats
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Plan:
+    """What a planner found for a task.
+
+    Attributes:
+        cost: In terms of the objective: for ``tip`` the length of the tip's path (m).
+        lower_bound: No motion costs less; None where unknown.
+        tip_path: Places of the tip, start and goal included, shape ``(n, 2)`` (m).
+        equal_paths: All different paths of that cost that were drawn, ``tip_path`` first.
+        configurations: One for each place of ``tip_path``, shape ``(n, 2)`` (rad).
+        postures: ``elbow-up``, ``elbow-down``, or None with the links in line, for each configuration.
+        jumps: Steps of the path that no arm can carry out: the place each begins at, and what is impossible.
+        vias: Places of ``tip_path`` that the motion was led through.
+        motion: Polynomial pieces over time.
+        verdict: What the verifier says of ``motion``; None if it was never asked: then the motion is not safe to run.
+        timings: Seconds spent in each stage.
+    """
+
+    scene: Scene
+    task: str
+    planner: str
+    settings: dict[str, Any]
+    seed: int
+    objective: str
+    cost: float
+    lower_bound: float | None
+    tip_path: Floats
+    equal_paths: list[Floats]
+    configurations: Floats
+    postures: list[str | None]
+    jumps: list[tuple[int, str]]
+    vias: list[int]
+    motion: _core.Motion
+    verdict: dict[str, Any] | None
+    timings: dict[str, float]
+
+    @property
+    def gap(self) -> float | None:
+        """How far ``cost`` may be above the best, as a share of it; None where unknown."""
+        return None if self.lower_bound is None else self.cost / self.lower_bound - 1.0 if self.cost > 0 else 0.0
+
+    def sample(self, *, period: float = 0.01) -> Samples:
+        """Return the motion every ``period`` (s), both ends included."""
+        if not (math.isfinite(period) and period > 0.0):
+            raise BadSetting(f"period is {period} s, it must be finite and greater than 0", setting="period")
+        duration = self.motion.duration
+        count = math.ceil(duration / period - 1e-9)
+        return self.at(np.minimum(period * np.arange(count + 1), duration))
+
+    def at(self, t: Floats) -> Samples:
+        """Return the motion at the instants ``t``, shape ``(n,)`` (s)."""
+        q, v, a, j = self.motion.sample(t)
+        elbow, tip = self.scene.core.elbows_and_tips(q)
+        return Samples(t, q, v, a, j, elbow, tip)
+
+
+def only_task(scene: Scene, task: str | None) -> str:
+    """Return ``task``, or the scene's only one if None."""
+    if task is not None:
+        return task
+    known = list(scene.tasks)
+    if len(known) == 1:
+        return known[0]
+    listed = ", ".join(known) or "none"
+    raise UnknownTask(f"name the task to plan; tasks of this scene: {listed}", name="", known=known)
+
+
+def plan_as_in_paper(
+    scene: Scene,
+    *,
+    task: str | None = None,
+    planner: PaperPlanner = "dstar-pso",
+    seed: int = 0,
+    vias: int = 5,
+    duration: float = 10.0,
+    candidates: int = 300,
+    timeout: float | None = None,
+    on_stage: Callable[[str], None] | None = None,
+) -> Plan:
+    """Return what the paper's system finds: a path over the union of both postures, smoothed through random vias.
+
+    Nothing checks the motion between grid points or after smoothing, and its steps may jump between postures: it is
+    here to be compared with, not to be run.
+
+    Args:
+        scene: Arm and obstacles.
+        task: Which one; may be left out if there is only one.
+        planner: ``dstar-pso``, the paper's modified lbest swarm, or ``dstar``, the pointers alone.
+        seed: Of the swarm and of the choice of via points.
+        vias: How many via points are chosen between start and goal.
+        duration: How long the motion takes (s).
+        candidates: Paths the swarm draws; the paper's 300 iterations.
+        timeout: When to give up (s).
+        on_stage: Called with the name of each stage as it begins.
+
+    Raises:
+        UnknownTask: The scene has no such task.
+        NotFree: Start or goal is not free.
+        NotFound: The grid does not connect them; a finer one may.
+        TimedOut: The timeout came first.
+        BadSetting: A setting makes no sense.
+    """
+    if planner not in ("dstar-pso", "dstar"):
+        raise BadSetting(f"no planner is called '{planner}'; dstar-pso or dstar", setting="planner")
+    for name, number, least in (("seed", seed, 0), ("vias", vias, 0), ("candidates", candidates, 1)):
+        if not least <= number < 2**63:
+            raise BadSetting(f"{name} is {number}, it must be a whole number from {least} on", setting=name)
+    task = only_task(scene, task)
+    try:
+        found = _core.plan_as_in_paper(
+            scene.core,
+            task,
+            swarm=planner == "dstar-pso",
+            seed=seed,
+            vias=vias,
+            duration=duration,
+            candidates=candidates,
+            timeout=timeout,
+            on_stage=on_stage,
+        )
+    except NotFree as error:
+        raise located(scene, error) from None
+    settings: dict[str, Any] = {"mode": "paper", "vias": vias, "duration": duration}
+    if planner == "dstar-pso":
+        settings["candidates"] = candidates
+    return Plan(
+        scene=scene,
+        task=task,
+        planner=planner,
+        settings=settings,
+        seed=seed,
+        objective="tip",
+        cost=found.cost,
+        lower_bound=None,
+        tip_path=found.tip_path,
+        equal_paths=found.equal_paths,
+        configurations=found.configurations,
+        postures=found.postures,
+        jumps=found.jumps,
+        vias=found.vias,
+        motion=found.motion,
+        verdict=None,
+        timings=dict(found.timings),
+    )
+
+
+def located(scene: Scene, error: NotFree) -> NotFree:
+    """Return ``error`` with the place in the scene's file in front, where there is one."""
+    at = scene.locations.get((error.task, error.end))
+    if scene.file is None or at is None:
+        return error
+    line, column = at
+    message = f"{scene.file}:{line}:{column}: tasks.{error.task}.{error}"
+    return NotFree(
+        message,
+        task=error.task,
+        end=error.end,
+        reasons=error.reasons,
+        nearest_free=error.nearest_free,
+        tip=error.tip,
+        configuration=error.configuration,
+    )

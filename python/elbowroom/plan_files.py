@@ -1,0 +1,68 @@
+"""A plan as files: ``plan.json`` and ``trajectory.csv``, all SI."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from elbowroom._core import __version__
+from elbowroom.plan import Plan
+
+PERIOD = 0.01
+"""Time between rows of ``trajectory.csv`` (s)."""
+
+COLUMNS = (
+    "time_s",
+    *(f"{letter}{joint}_{unit}" for letter, unit in (("q", "rad"), ("v", "rad_s"), ("a", "rad_s2")) for joint in (1, 2)),
+    "x_m",
+    "y_m",
+)
+
+
+def as_json(plan: Plan) -> dict[str, Any]:
+    """Return ``plan`` as what ``plan.json`` holds."""
+    starts, durations = plan.motion.starts.tolist(), plan.motion.durations.tolist()
+    coefficients = plan.motion.coefficients.tolist()
+    return {
+        "version": __version__,
+        "scene": plan.scene.file,
+        "task": plan.task,
+        "planner": plan.planner,
+        "settings": plan.settings,
+        "seed": plan.seed,
+        "objective": plan.objective,
+        "cost": plan.cost,
+        "lower_bound": plan.lower_bound,
+        "gap": plan.gap,
+        "tip_path": plan.tip_path.tolist(),
+        "configurations": plan.configurations.tolist(),
+        "postures": plan.postures,
+        "jumps": [{"index": index, "kind": kind} for index, kind in plan.jumps],
+        "vias": plan.vias,
+        "pieces": [
+            {"start": start, "duration": duration, "coefficients": of_joints}
+            for start, duration, of_joints in zip(starts, durations, coefficients, strict=True)
+        ],
+        "verified": plan.verdict is not None and bool(plan.verdict["safe"]),
+        "verdict": plan.verdict,
+        "timings_s": plan.timings,
+    }
+
+
+def write_plan(plan: Plan, folder: Path) -> list[Path]:
+    """Write ``plan.json`` and ``trajectory.csv`` into ``folder``, which is made if need be; return their paths."""
+    folder.mkdir(parents=True, exist_ok=True)
+    document = folder / "plan.json"
+    document.write_text(json.dumps(as_json(plan), indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    table = folder / "trajectory.csv"
+    table.write_text(as_csv(plan), encoding="utf-8", newline="")
+    return [document, table]
+
+
+def as_csv(plan: Plan) -> str:
+    """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
+    samples = plan.sample(period=PERIOD)
+    columns = [samples.t, *samples.q.T, *samples.v.T, *samples.a.T, *samples.tip.T]
+    rows = zip(*(column.tolist() for column in columns), strict=True)
+    return "\n".join([",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows)]) + "\n"

@@ -1,0 +1,180 @@
+"""What is asked: an arm among obstacles, the grid of its map, and tasks. Metres and radians throughout."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from elbowroom import _core
+from elbowroom.errors import SceneError
+
+Pair = tuple[float, float]
+PostureWish = Literal["up", "down", "any", "keep"]
+
+LARGEST_FILE = 4 * 1024 * 1024
+"""Largest scene file that is read (bytes)."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Joint:
+    """Where a joint may turn (rad): all the way round if ``continuous``, else from ``min`` to ``max``, ends included.
+
+    ``velocity``, ``acceleration`` and ``jerk`` are its greatest (rad/s, rad/s², rad/s³); None where none is stated.
+    """
+
+    continuous: bool = False
+    min: float | None = None
+    max: float | None = None
+    velocity: float | None = None
+    acceleration: float | None = None
+    jerk: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Arm:
+    """A planar arm: link lengths (m) and joints, base first. Links are capsules of ``half_width`` (m)."""
+
+    links: Sequence[float]
+    joints: Sequence[Joint]
+    half_width: float = 0.0
+    base: Pair = (0.0, 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """The points of the free-space map: ranges of x and y with both ends, ``step`` apart (m)."""
+
+    x: Pair
+    y: Pair
+    step: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Circle:
+    """A disc that the arm must not touch (m)."""
+
+    center: Pair
+    radius: float
+    name: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polygon:
+    """A simple polygon, convex or not, that the arm must not touch: corners in either direction (m)."""
+
+    vertices: Sequence[Pair]
+    name: str | None = None
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """Joint angles, base first (rad): a start or goal given by the joints."""
+
+    q: Pair
+
+
+Place = Pair | Configuration
+"""Where a task begins or ends: a place of the tip (m), or a configuration."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """A motion that is asked for, and the postures that will do."""
+
+    start: Place
+    goal: Place
+    posture: PostureWish = "any"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Scene:
+    """An arm among obstacles, with the grid of its map and named tasks.
+
+    Raises:
+        SceneError: A part makes no sense.
+
+    Example:
+        >>> import math
+        >>> import elbowroom as er
+        >>> bend = math.radians(150)
+        >>> scene = er.Scene(
+        ...     arm=er.Arm(links=(0.25, 0.25), joints=(er.Joint(continuous=True), er.Joint(min=-bend, max=bend))),
+        ...     grid=er.Grid(x=(-0.5, 0.5), y=(-0.5, 0.5), step=0.01),
+        ...     obstacles=[er.Circle(center=(0.22, 0.22), radius=0.05)],
+        ...     tasks={"first": er.Task(start=(0.4, 0.1), goal=(-0.45, -0.15))},
+        ... )
+        >>> er.free_space(scene).cases["two"] > 1000
+        True
+    """
+
+    arm: Arm
+    grid: Grid
+    obstacles: Sequence[Circle | Polygon] = ()
+    tasks: Mapping[str, Task] = field(default_factory=dict)
+    file: str | None = None
+    locations: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict, repr=False, compare=False)
+    """Line and column of each (task, "start" or "goal") in the file."""
+    core: _core.Scene = field(init=False, repr=False, compare=False)
+    """The same scene as the core holds it."""
+
+    def __post_init__(self) -> None:
+        core = _core.Scene(
+            arm=self.arm, grid=self.grid, obstacles=list(self.obstacles), tasks=list(self.tasks.items())
+        )
+        object.__setattr__(self, "core", core)
+
+    @classmethod
+    def load(cls, path: str | Path) -> Scene:
+        """Return the scene in the YAML file at ``path``; its format is ``schema/scene.schema.json``.
+
+        Raises:
+            SceneError: The file cannot be read or is no scene; with file, line, column and key.
+        """
+        return cls.parse(_text_of(Path(path)), file=str(path))
+
+    @classmethod
+    def parse(cls, text: str, *, file: str = "scene") -> Scene:
+        """Return the scene in the YAML ``text``; errors call it ``file``.
+
+        Raises:
+            SceneError: The text is no scene; with file, line, column and key.
+        """
+        parsed = _core.SceneFile.parse(text, file)
+        parts = parsed.parts()
+        tasks = {name: _task(part) for name, part in parts["tasks"].items()}
+        ends = [(name, end) for name in tasks for end in ("start", "goal")]
+        located = {key: at for key in ends if (at := parsed.location(*key)) is not None}
+        return cls(
+            arm=Arm(**{**parts["arm"], "joints": tuple(Joint(**joint) for joint in parts["arm"]["joints"])}),
+            grid=Grid(**parts["grid"]),
+            obstacles=tuple((Circle if "radius" in part else Polygon)(**part) for part in parts["obstacles"]),
+            tasks=tasks,
+            file=file,
+            locations=located,
+        )
+
+
+def _text_of(path: Path) -> str:
+    def refused(what: str) -> SceneError:
+        return SceneError(f"{path}: {what}", key="", file=str(path))
+
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise refused(f"cannot be read: {error.strerror or error}") from None
+    if len(content) > LARGEST_FILE:
+        raise refused("more than 4 MiB, which is the most a scene file may have")
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as error:
+        raise refused(f"byte {error.start} is not UTF-8") from None
+
+
+def _task(part: Mapping[str, Any]) -> Task:
+    def place(end: str) -> Place:
+        return part[end] if end in part else Configuration(tuple(part[f"{end}_q"]))
+
+    return Task(start=place("start"), goal=place("goal"), posture=part["posture"])

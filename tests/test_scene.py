@@ -1,0 +1,95 @@
+from __future__ import annotations
+
+import pickle
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+import elbowroom as er
+
+SOUND = """\
+elbowroom: 1
+units: {length: cm, angle: deg}
+arm:
+  links: [25, 25]
+  joints: [{continuous: true}, {min: -150, max: 150}]
+grid: {x: [-50, 50], y: [-50, 50], step: 1}
+obstacles:
+  - circle: {center: [22, 22], radius: 5}
+    name: post
+tasks:
+  first: {start: [40, 10], goal: [-45, -15]}
+"""
+
+
+def test_a_file_and_code_give_the_same_scene(scenes: Path, standin: er.Scene) -> None:
+    loaded = er.Scene.load(scenes / "paper-standin.yaml")
+    assert loaded.arm == replace(standin.arm, links=loaded.arm.links)
+    assert tuple(loaded.arm.links) == (0.25, 0.25)
+    assert (loaded.grid, loaded.obstacles, loaded.tasks) == (standin.grid, standin.obstacles, standin.tasks)
+    assert loaded.locations["first", "start"][0] > loaded.locations["first", "start"][1] // 100
+
+
+def test_every_scene_of_the_repository_loads(scenes: Path) -> None:
+    files = sorted(scenes.glob("*.yaml"))
+    assert len(files) >= 4
+    for file in files:
+        assert er.Scene.load(file).tasks
+
+
+def test_configurations_and_units_come_through() -> None:
+    text = SOUND.replace("[40, 10]", "{q: [10, 20]}")
+    scene = er.Scene.parse(text)
+    start = scene.tasks["first"].start
+    assert isinstance(start, er.Configuration)
+    assert start.q == pytest.approx((0.17453292519943295, 0.3490658503988659), rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "key"),
+    [
+        ("links: [25, 25]", "links: [25, -25]", 4, "arm.links[1]"),
+        ("step: 1", "stepp: 1", 6, "grid.stepp"),
+        ("radius: 5", "radius: .nan", 8, "obstacles[0].circle.radius"),
+        ("min: -150", "min: 151", 5, "arm.joints[1]"),
+        ("goal: [-45, -15]", "goal: [-45]", 11, "tasks.first.goal"),
+    ],
+)
+def test_a_file_that_is_wrong_is_refused_with_its_place(old: str, new: str, line: int, key: str) -> None:
+    with pytest.raises(er.SceneError) as caught:
+        er.Scene.parse(SOUND.replace(old, new), file="a.yaml")
+    error = caught.value
+    assert (error.file, error.line, error.key) == ("a.yaml", line, key)
+    assert str(error).startswith(f"a.yaml:{line}:{error.column}: {key}")
+    assert isinstance(error, ValueError)
+    assert pickle.loads(pickle.dumps(error)).line == line
+
+
+def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(er.SceneError, match="cannot be read"):
+        er.Scene.load(tmp_path / "missing.yaml")
+    binary = tmp_path / "binary.yaml"
+    binary.write_bytes(b"elbowroom: \xff\xfe")
+    with pytest.raises(er.SceneError, match="UTF-8"):
+        er.Scene.load(binary)
+    huge = tmp_path / "huge.yaml"
+    huge.write_bytes(b"#" * (4 * 1024 * 1024 + 1))
+    with pytest.raises(er.SceneError, match="4 MiB"):
+        er.Scene.load(huge)
+
+
+@pytest.mark.parametrize(
+    ("change", "key"),
+    [
+        ({"grid": er.Grid(x=(1.0, 0.0), y=(0.0, 1.0), step=0.1)}, "grid"),
+        ({"arm": er.Arm(links=(0.1, 0.2, 0.3), joints=(er.Joint(continuous=True),) * 3)}, "arm"),
+        ({"arm": er.Arm(links=(0.1, 0.2), joints=(er.Joint(),) * 2)}, "arm.joints[0]"),
+        ({"obstacles": [er.Circle(center=(0.0, 0.0), radius=-1.0)]}, "obstacles[0]"),
+        ({"obstacles": [er.Polygon(vertices=[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)])]}, "obstacles[0]"),
+    ],
+)
+def test_a_scene_built_in_code_is_checked_too(standin: er.Scene, change: dict[str, object], key: str) -> None:
+    with pytest.raises(er.SceneError) as caught:
+        replace(standin, **change)
+    assert (caught.value.key, caught.value.line) == (key, None)
