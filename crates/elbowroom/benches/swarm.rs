@@ -4,19 +4,26 @@
 
 use std::hint::black_box;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BatchSize, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use elbowroom::swarm::{Bounds, Neighbourhood, Swarm, SwarmSettings, minimise};
 
 const PARTICLES: usize = 50;
+const STEPS: usize = 100;
 
 fn sphere(x: &[f64]) -> f64 {
     x.iter().map(|x| x * x).sum()
 }
 
-/// One step of a swarm that is well under way.
-fn step(criterion: &mut Criterion) {
+fn run(swarm: &mut Swarm, steps: usize) {
+    for _ in 0..steps {
+        swarm.step(&mut |x| sphere(black_box(x)));
+    }
+}
+
+/// Some steps of a swarm half way through its iterations.
+fn steps(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("sphere");
-    group.throughput(Throughput::Elements(PARTICLES as u64));
+    group.throughput(Throughput::Elements((PARTICLES * STEPS) as u64));
     for dimensions in [2, 7, 30] {
         let bounds = Bounds::new(&vec![[-5.12, 5.12]; dimensions]).expect("a box");
         for (name, neighbourhood) in
@@ -28,14 +35,16 @@ fn step(criterion: &mut Criterion) {
             assert!(found.evaluations == PARTICLES * settings.iterations);
 
             let mut swarm = Swarm::new(&bounds, &settings, 1).expect("a swarm");
+            run(&mut swarm, settings.iterations / 2);
             group.bench_function(BenchmarkId::new(name, dimensions), |bencher| {
-                bencher.iter(|| swarm.step(&mut |x| sphere(black_box(x))));
+                bencher.iter_batched_ref(|| swarm.clone(), |swarm| run(swarm, STEPS), BatchSize::SmallInput);
             });
-            assert!(bounds.contains(swarm.best().0) && swarm.best().1 == sphere(swarm.best().0));
+            run(&mut swarm, settings.iterations - settings.iterations / 2);
+            assert!(swarm.best() == (found.position.as_slice(), found.value));
         }
     }
     group.finish();
 }
 
-criterion_group!(benches, step);
+criterion_group!(benches, steps);
 criterion_main!(benches);

@@ -1,5 +1,7 @@
 //! The plain swarm: equal to a naive one bit for bit, inside its box, and as good as it says.
 
+#![expect(clippy::unwrap_used, reason = "a test's own set-up may panic")]
+
 use std::f64::consts::{E, TAU};
 
 use elbowroom::swarm::{
@@ -43,7 +45,8 @@ fn comes_to_the_minimum_of_standard_functions() {
     const RING: Neighbourhood = Neighbourhood::Ring { k: 2 };
     // Objective, half width of the box, then dimensions, neighbourhood, value and least share that reaches it.
     type Goal = (usize, Neighbourhood, f64, f64);
-    let functions: [(fn(&[f64]) -> f64, f64, &[Goal]); 5] = [
+    type Function = (fn(&[f64]) -> f64, f64, &'static [Goal]);
+    let functions: [Function; 5] = [
         (sphere, 5.12, &[(2, RING, 1e-30, 1.0), (30, GLOBAL, 1e-5, 1.0), (30, RING, 2e-3, 1.0)]),
         (rosenbrock, 2.048, &[(2, GLOBAL, 1e-12, 1.0), (2, RING, 1e-9, 1.0), (10, RING, 9.0, 1.0)]),
         (rastrigin, 5.12, &[(2, GLOBAL, 0.0, 1.0), (2, RING, 0.0, 1.0), (10, GLOBAL, 5.0, 0.7)]),
