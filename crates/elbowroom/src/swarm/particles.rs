@@ -11,9 +11,6 @@ use super::{Bounds, Neighbourhood, SwarmError, SwarmSettings};
 /// The most coordinates that all particles of a swarm may have together.
 pub const MAX_COORDINATES: usize = 1 << 24;
 
-/// Bytes of random numbers that one coordinate takes: two numbers of 32 bits.
-const DRAW: usize = 8;
-
 /// What a swarm found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum {
@@ -52,8 +49,8 @@ pub struct Swarm {
     swarm_best: usize,
     iteration: usize,
     rng: ChaCha8Rng,
-    /// Random numbers for one particle.
-    draws: Vec<u8>,
+    /// Random bytes for one particle: two numbers for each coordinate.
+    draws: Vec<[u8; 8]>,
     /// Scratch of the ring.
     waiting: VecDeque<usize>,
 }
@@ -81,7 +78,7 @@ impl Swarm {
             swarm_best: 0,
             iteration: 0,
             rng: ChaCha8Rng::seed_from_u64(seed),
-            draws: vec![0; DRAW * dimensions],
+            draws: vec![[0; 8]; dimensions],
             waiting: VecDeque::with_capacity(particles),
         };
         swarm.scatter();
@@ -95,10 +92,10 @@ impl Swarm {
         let rows =
             self.positions.chunks_exact_mut(dimensions).zip(self.velocities.chunks_exact_mut(dimensions));
         for (position, velocity) in rows {
-            self.rng.fill_bytes(&mut self.draws);
-            for (d, draw) in self.draws.chunks_exact(DRAW).enumerate() {
+            self.rng.fill_bytes(self.draws.as_flattened_mut());
+            for (d, draw) in self.draws.iter().enumerate() {
                 let (min, max) = (self.bounds.min()[d], self.bounds.max()[d]);
-                let [here, there] = units(draw).map(|unit| clamped(min + unit * (max - min), min, max));
+                let [here, there] = units(*draw).map(|unit| clamped(min + unit * (max - min), min, max));
                 position[d] = here;
                 velocity[d] = clamped(0.5 * (there - here), -self.v_max[d], self.v_max[d]);
             }
@@ -130,15 +127,15 @@ impl Swarm {
         let (min, max) = (&self.bounds.min()[..dimensions], &self.bounds.max()[..dimensions]);
         let v_max = &self.v_max[..dimensions];
         for (particle, &neighbour) in self.neighbour_bests.iter().enumerate() {
-            self.rng.fill_bytes(&mut self.draws);
-            let draws = &self.draws[..DRAW * dimensions];
+            self.rng.fill_bytes(self.draws.as_flattened_mut());
+            let draws = &self.draws[..dimensions];
             let row = particle * dimensions;
             let position = &mut self.positions[row..][..dimensions];
             let velocity = &mut self.velocities[row..][..dimensions];
             let personal = &self.personal_bests[row..][..dimensions];
             let neighbour = &self.personal_bests[neighbour * dimensions..][..dimensions];
             for d in 0..dimensions {
-                let [r1, r2] = units(&draws[DRAW * d..][..DRAW]);
+                let [r1, r2] = units(draws[d]);
                 let x = position[d];
                 let v = inertia * velocity[d]
                     + c_personal * r1 * (personal[d] - x)
@@ -247,8 +244,8 @@ fn clamped(value: f64, min: f64, max: f64) -> f64 {
 
 /// Two numbers in [0, 1), multiples of 2^-32: the low half of the bytes gives the first.
 #[inline]
-fn units(draw: &[u8]) -> [f64; 2] {
-    let word = draw.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte));
+fn units(draw: [u8; 8]) -> [f64; 2] {
+    let word = u64::from_le_bytes(draw);
     // As the upper bits of a fraction they give a number in [1, 2) without a conversion.
     let from_fraction = |upper: u64| f64::from_bits(1.0_f64.to_bits() | upper << 20) - 1.0;
     [from_fraction(word & 0xffff_ffff), from_fraction(word >> 32)]
