@@ -1,5 +1,7 @@
 //! The verifier against closed forms, and against a dense judge with formulas of its own.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
+
 use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -424,7 +426,7 @@ struct DenseJudge {
     shapes: Vec<JudgeShape>,
 }
 
-const SAMPLES: usize = 4000;
+const SAMPLES: usize = 20_000;
 
 fn sample_time(motion: &Motion<2>, i: usize) -> f64 {
     motion.start() + motion.duration() * i as f64 / SAMPLES as f64
@@ -445,7 +447,11 @@ impl DenseJudge {
     }
 
     fn axes(&self, motion: &Motion<2>, t: f64) -> [[P; 2]; 2] {
-        let [q1, q2] = motion.at(t).position;
+        let pieces = motion.pieces();
+        let piece = pieces.iter().rfind(|piece| piece.start <= t).unwrap_or(&pieces[0]);
+        let s = (t - piece.start).clamp(0.0, piece.duration);
+        let [q1, q2] =
+            piece.coefficients.map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * s + term));
         let elbow = [self.base[0] + self.lengths[0] * q1.cos(), self.base[1] + self.lengths[0] * q1.sin()];
         let (sin, cos) = (q1 + q2).sin_cos();
         let tip = [elbow[0] + self.lengths[1] * cos, elbow[1] + self.lengths[1] * sin];
@@ -490,7 +496,11 @@ impl DenseJudge {
         let mut first = None;
         for i in 0..=SAMPLES {
             let mut low = (samples[i], time(i));
-            let dips = i > 0 && i < SAMPLES && samples[i] <= samples[i - 1] && samples[i] <= samples[i + 1];
+            let dips = i > 0 && i < SAMPLES && {
+                let (before, after) = (samples[i - 1], samples[i + 1]);
+                // A level stretch has no bottom to look for.
+                samples[i] <= before && samples[i] <= after && before.max(after) > samples[i] + 1e-12
+            };
             if dips && samples[i] < 0.05 {
                 let (mut a, mut b) = (time(i - 1), time(i + 1));
                 for _ in 0..60 {
@@ -573,9 +583,17 @@ fn random_motion(numbers: &mut Numbers) -> Motion<2> {
 
 #[test]
 fn the_dense_judge_agrees_on_random_scenes() {
-    let mut numbers = Numbers(7);
+    std::thread::scope(|scope| {
+        for seed in [7, 8] {
+            scope.spawn(move || the_dense_judge_agrees(seed, 1000));
+        }
+    });
+}
+
+fn the_dense_judge_agrees(seed: u64, cases: usize) {
+    let mut numbers = Numbers(seed);
     let (mut safe, mut in_contact) = (0, 0);
-    for case in 0..2000 {
+    for case in 0..cases {
         let scene = random_scene(&mut numbers);
         let motion = random_motion(&mut numbers);
         let verdict = judged(&scene, &motion);
@@ -630,7 +648,7 @@ fn the_dense_judge_agrees_on_random_scenes() {
             agree_on_joint(&scene, &motion, &verdict, joint);
         }
     }
-    assert!(safe > 300 && in_contact > 300, "{safe} safe, {in_contact} in contact");
+    assert!(safe > 150 && in_contact > 150, "{safe} safe, {in_contact} in contact");
 }
 
 /// Sampled positions and rates lie within the verdict's extremes and come close to them.
