@@ -11,7 +11,7 @@ use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Scene, Shape};
 use elbowroom::trajectory::{Motion, Piece, State, durations_by_length, quintic_through, vias_at};
 use elbowroom::verify::{
-    Continuous, FLOOR, Rate, Trajectory, Verdict, VerifySettings, Violation, verify, verify_until,
+    FLOOR, Quantity, Rate, Trajectory, Verdict, VerifySettings, Violation, verify, verify_until,
 };
 
 const FREE: Joint = Joint {
@@ -255,15 +255,15 @@ fn pieces_that_do_not_join_are_found() {
         judged(&scene(0.0, Vec::new()), &Motion::new(pieces).unwrap())
     };
     assert!(with(&via, 1.0).is_safe());
-    for (what, joint) in [Continuous::Position, Continuous::Velocity, Continuous::Acceleration]
+    for (what, joint) in [Quantity::Position, Quantity::Velocity, Quantity::Acceleration]
         .into_iter()
         .flat_map(|what| [(what, 0), (what, 1)])
     {
         let mut other = via;
         match what {
-            Continuous::Position => other.position[joint] += 1e-6,
-            Continuous::Velocity => other.velocity[joint] += 1e-6,
-            Continuous::Acceleration => other.acceleration[joint] += 1e-6,
+            Quantity::Position => other.position[joint] += 1e-6,
+            Quantity::Velocity => other.velocity[joint] += 1e-6,
+            Quantity::Acceleration => other.acceleration[joint] += 1e-6,
         }
         let verdict = with(&other, 1.0);
         let [Violation::Discontinuity { joint: found, what: kind, time, jump }] = verdict.violations[..]
@@ -347,6 +347,36 @@ fn huge_numbers_are_refused_rather_than_passed() {
         Piece { start: 0.0, duration: 1e100, coefficients: [[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [0.0; 6]] };
     let verdict = judged(&scene(0.0, Vec::new()), &Motion::new(vec![overflow]).unwrap());
     assert!(matches!(verdict.violations[..], [Violation::TooLarge { joint: 1, .. }]), "{verdict:?}");
+}
+
+#[test]
+fn a_motion_close_along_a_wall_is_decided() {
+    // The inner side of a ring around the base, 0.1 mm beyond the tip, which moves by 1 m along it.
+    let arc = |radius: f64, turn: f64| [radius * turn.cos(), radius * turn.sin()];
+    let turns: Vec<f64> = (0..=400).map(|i| -0.1 + f64::from(i) / 400.0).collect();
+    let inner = turns.iter().map(|&turn| arc(1.5001, turn));
+    let outer = turns.iter().rev().map(|&turn| arc(1.6, turn));
+    let ring = polygon(&inner.chain(outer).collect::<Vec<_>>());
+    let verdict = judged(&scene(0.0, vec![ring]), &rest_to_rest([0.0, 0.0], [1.0 / 1.5, 0.0], 1.0));
+    assert!(verdict.is_safe(), "{verdict:?}");
+    let clearance = verdict.least_clearance.unwrap();
+    // An edge bulges inwards by 1.5 (1 - cos 0.00125) = 1.2e-6 m.
+    assert!(clearance.distance < 1e-4 && clearance.distance > 0.98e-4, "{clearance:?}");
+    assert!(clearance.at_least.unwrap() > 0.0);
+}
+
+#[test]
+fn an_obstacle_beside_the_base_is_decided_at_once() {
+    // The clearance of the first link stays the same all along, 1 mm, while its end moves by 1.5 m.
+    let scene = scene(0.0, vec![circle(-0.051, 0.0, 0.05)]);
+    let motion = rest_to_rest([-0.75, 0.0], [0.75, 0.0], 1.0);
+    let verdict = verify(&scene, &motion, &VerifySettings { evaluations: 100, ..VerifySettings::default() });
+    assert!(verdict.is_safe(), "{verdict:?}");
+    let clearance = verdict.least_clearance.unwrap();
+    assert!(
+        (clearance.distance - 1e-3).abs() < 1e-12 && clearance.at_least.unwrap() > 0.98e-3,
+        "{clearance:?}"
+    );
 }
 
 #[test]

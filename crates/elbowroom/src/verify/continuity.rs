@@ -1,13 +1,13 @@
 //! Whether pieces join.
 
-use super::verdict::{Continuous, Violation};
+use super::verdict::{Quantity, Violation};
 use crate::trajectory::Piece;
 
 /// A jump up to this share of what the polynomials' terms amount to is rounding, for all three quantities;
 /// terms that amount to less than 1 count as 1.
 pub const JUMP_ROUNDING: f64 = 1e-9;
 
-const KINDS: [Continuous; 3] = [Continuous::Position, Continuous::Velocity, Continuous::Acceleration];
+const KINDS: [Quantity; 3] = [Quantity::Position, Quantity::Velocity, Quantity::Acceleration];
 
 /// Reports the greatest jump of each kind per joint, and gives the greatest jump of position that passed as
 /// rounding, per joint (rad).

@@ -6,8 +6,9 @@ use super::verdict::{JointMargin, MotionMargin, MotionMargins, Rate, Violation};
 use crate::arm::{Joint, JointLimits};
 use crate::trajectory::{Motion, Piece};
 
-/// How far beyond a stop rounding may put a joint (rad).
+/// How far beyond a stop rounding may put a joint (rad), and the share of the stop's angle to add.
 const STOP_ROUNDING: f64 = 1e-12;
+const STOP_ROUNDING_SHARE: f64 = 64.0 * f64::EPSILON;
 
 /// How far above a motion limit rounding may put a rate, as a share of the limit.
 const RATE_ROUNDING: f64 = 1e-12;
@@ -83,7 +84,7 @@ fn stop_margin(
     for (peak, sign, limit) in [(lowest, -1.0, min), (highest, 1.0, max)] {
         let angle = sign * peak.bound;
         let beyond = sign * (angle - limit);
-        if beyond > STOP_ROUNDING {
+        if beyond > STOP_ROUNDING + STOP_ROUNDING_SHARE * limit.abs() {
             violations.push(Violation::JointLimit { joint: j + 1, time: peak.time, angle, limit });
         }
     }

@@ -21,9 +21,7 @@ use crate::trajectory::Motion;
 pub use continuity::JUMP_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
 pub use trajectory::Trajectory;
-pub use verdict::{
-    Clearance, Continuous, JointMargin, MotionMargin, MotionMargins, Rate, Verdict, Violation,
-};
+pub use verdict::{Clearance, JointMargin, MotionMargin, MotionMargins, Quantity, Rate, Verdict, Violation};
 
 /// Clearance that a safe motion has more of, whatever the margin (m).
 pub const FLOOR: f64 = 1e-9;

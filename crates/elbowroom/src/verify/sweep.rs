@@ -26,8 +26,9 @@ const GLANCES: u32 = 4;
 /// The most pieces that are glanced at.
 const GLANCED_AT: usize = 64;
 
-/// Configurations per piece looked at for the depth of a contact.
-const SOUNDINGS: u32 = 256;
+/// Configurations looked at for the depth of a contact, shared by the pieces; the least for one piece.
+const SOUNDINGS: usize = 512;
+const LEAST_SOUNDINGS: usize = 4;
 
 /// Rounds of taking the better two thirds of a dip; each tells the place better by half.
 const THIRDS: u32 = 40;
@@ -328,35 +329,33 @@ impl Judge<'_> {
     /// By how much the clearance falls short of the margin (m) while the contact lasts that begins at
     /// `fraction` of the first stretch.
     fn depth(&mut self, pair: &Pair, stretches: &[Stretch], fraction: f64) -> f64 {
+        let soundings = (SOUNDINGS / stretches.len().max(1)).max(LEAST_SOUNDINGS);
         let mut from = fraction;
         let mut least = f64::INFINITY;
-        for stretch in stretches {
-            let step = (1.0 - from) / f64::from(SOUNDINGS);
-            let mut deepest = from;
-            let mut lasts = true;
-            for i in 0..=SOUNDINGS {
-                let place = from + step * f64::from(i);
+        let mut around = None;
+        'contact: for stretch in stretches {
+            let step = (1.0 - from) / soundings as f64;
+            for i in 0..=soundings {
+                let place = from + step * i as f64;
                 let clearance = self.note(pair, stretch, place);
                 if clearance < least {
-                    (least, deepest) = (clearance, place);
+                    least = clearance;
+                    around = Some((stretch, [(place - step).max(from), (place + step).min(1.0)]));
                 }
-                lasts = i == 0 || !is_above(clearance, self.margin);
-                if !lasts {
-                    break;
+                if i > 0 && is_above(clearance, self.margin) {
+                    break 'contact;
                 }
-            }
-            let around = [(deepest - step).max(from), (deepest + step).min(1.0)];
-            least = least.min(self.deepest_within(pair, stretch, around));
-            if !lasts {
-                break;
             }
             from = 0.0;
+        }
+        if let Some((stretch, around)) = around {
+            least = least.min(self.bottom(pair, stretch, around));
         }
         self.margin - least
     }
 
     /// Clearance (m) at the bottom of a dip, by thirds.
-    fn deepest_within(&mut self, pair: &Pair, stretch: &Stretch, [mut from, mut to]: [f64; 2]) -> f64 {
+    fn bottom(&mut self, pair: &Pair, stretch: &Stretch, [mut from, mut to]: [f64; 2]) -> f64 {
         for _ in 0..THIRDS {
             let third = (to - from) / 3.0;
             if pair.clearance_at(stretch, from + third) < pair.clearance_at(stretch, to - third) {

@@ -1,3 +1,5 @@
+use thiserror::Error;
+
 /// What the verifier found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
@@ -82,7 +84,7 @@ pub enum Rate {
 
 /// What must not jump where two pieces meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Continuous {
+pub enum Quantity {
     /// In rad.
     Position,
     /// In rad/s.
@@ -91,11 +93,54 @@ pub enum Continuous {
     Acceleration,
 }
 
+impl Rate {
+    /// The word for it, in lower case.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+            Self::Jerk => "jerk",
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Velocity => "rad/s",
+            Self::Acceleration => "rad/s²",
+            Self::Jerk => "rad/s³",
+        }
+    }
+}
+
+impl Quantity {
+    /// The word for it, in lower case.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Position => "rad",
+            Self::Velocity => "rad/s",
+            Self::Acceleration => "rad/s²",
+        }
+    }
+}
+
 /// A reason why a motion is not safe. Joints and links count from 1 at the base, obstacles from 0 as in the
 /// scene, times are in seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Violation {
     /// A link comes as near to an obstacle as the margin, or touches it.
+    #[error(
+        "link {link} touches obstacle {obstacle} from {time} s on, {depth} m short of the clearance asked for"
+    )]
     Contact {
         /// When first.
         time: f64,
@@ -109,6 +154,7 @@ pub enum Violation {
     },
     /// It was not decided whether a link stays clear of an obstacle: the budget ran out, or the clearance
     /// cannot be told from the floor in the arithmetic used.
+    #[error("whether link {link} stays clear of obstacle {obstacle} could not be decided from {time} s on")]
     Undecided {
         /// When first.
         time: f64,
@@ -118,6 +164,7 @@ pub enum Violation {
         obstacle: usize,
     },
     /// A joint turns beyond a stop.
+    #[error("joint {joint} turns to {angle} rad at {time} s, beyond its stop at {limit} rad")]
     JointLimit {
         /// Which joint.
         joint: usize,
@@ -129,6 +176,7 @@ pub enum Violation {
         limit: f64,
     },
     /// A joint moves faster, or changes its speed faster, than allowed.
+    #[error("the {} of joint {joint} reaches {value} {} at {time} s, {limit} {} are allowed", rate.name(), rate.unit(), rate.unit())]
     MotionLimit {
         /// Which joint.
         joint: usize,
@@ -142,17 +190,19 @@ pub enum Violation {
         limit: f64,
     },
     /// Two pieces do not join.
+    #[error("the {} of joint {joint} jumps by {jump} {} at {time} s", what.name(), what.unit())]
     Discontinuity {
         /// Which joint.
         joint: usize,
         /// What jumps.
-        what: Continuous,
+        what: Quantity,
         /// When it jumps the most.
         time: f64,
         /// By how much.
         jump: f64,
     },
     /// The numbers of a piece are too large for the arithmetic.
+    #[error("the numbers of joint {joint} are too large in the piece that begins at {time} s")]
     TooLarge {
         /// Which joint.
         joint: usize,
@@ -160,6 +210,7 @@ pub enum Violation {
         time: f64,
     },
     /// The verifier was told to stop before it was done.
+    #[error("the verifier was stopped before it was done with the motion")]
     Stopped {
         /// When the first piece begins that was not looked at in full.
         time: f64,
