@@ -16,3 +16,4 @@ pub mod scene;
 pub mod search;
 pub mod swarm;
 pub mod trajectory;
+pub mod verify;

@@ -1,0 +1,82 @@
+//! Whether a motion is safe: a proof or a reason why not.
+//!
+//! The verifier looks at the polynomials themselves, never at samples of them. Its geometry is its own, so
+//! that a mistake in what the planners use cannot pass here. Between the pieces' ends every statement holds
+//! for the exact polynomials: bounds carry an allowance for the rounding of their arithmetic, and what cannot
+//! be told apart in it is refused.
+
+mod bernstein;
+mod clearance;
+mod continuity;
+mod limits;
+mod peak;
+mod posture_changes;
+mod sweep;
+mod trajectory;
+mod verdict;
+
+use crate::scene::Scene;
+use crate::trajectory::Motion;
+
+pub use continuity::JUMP_ROUNDING;
+pub use posture_changes::MOST_POSTURE_CHANGES;
+pub use trajectory::Trajectory;
+pub use verdict::{Clearance, JointMargin, MotionMargin, MotionMargins, Quantity, Rate, Verdict, Violation};
+
+/// Clearance that a safe motion has more of, whatever the margin (m).
+pub const FLOOR: f64 = 1e-9;
+
+/// What to ask of a motion, and how much work to put in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VerifySettings {
+    /// Clearance that a safe motion has more of (m); below [`FLOOR`] it counts as [`FLOOR`].
+    pub margin: f64,
+    /// Configurations looked at per piece, link and obstacle before the pair is left undecided; half of them
+    /// may go into the accuracy of the least clearance.
+    pub evaluations: u32,
+}
+
+impl Default for VerifySettings {
+    /// No margin. A link that moves by 1 m and stays within 0.1 mm of an obstacle all along is still decided.
+    fn default() -> Self {
+        Self { margin: 0.0, evaluations: 1 << 17 }
+    }
+}
+
+/// Judges whether the scene's arm can run `motion` safely: clear of all obstacles by more than the margin,
+/// within joint and motion limits, with position, velocity and acceleration that do not jump.
+///
+/// Start and end need not be at rest. Joint limits are closed and allowed 1e-12 rad of rounding, motion limits
+/// a share of 1e-12.
+///
+/// # Reference
+/// Schwarzer, Saha and Latombe, *Adaptive dynamic collision checking*, IEEE T-RO 21(3), 2005, for the bisection
+/// with motion bounds; Farouki, *The Bernstein polynomial basis: a centennial retrospective*, CAGD 29(6), 2012,
+/// for the bounds of the polynomials.
+pub fn verify(scene: &Scene, motion: &Motion<2>, settings: &VerifySettings) -> Verdict {
+    verify_until(scene, motion, settings, &|| true)
+}
+
+/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going`, asked every few microseconds, says
+/// no.
+pub fn verify_until(
+    scene: &Scene,
+    motion: &Motion<2>,
+    settings: &VerifySettings,
+    keep_going: &dyn Fn() -> bool,
+) -> Verdict {
+    let mut violations = Vec::new();
+    let pieces = limits::workable_pieces(motion, &mut violations);
+    let passed_jumps = continuity::check(motion.pieces(), &mut violations);
+    let joints = scene.arm.joints();
+    let reports = [0, 1].map(|j| limits::check(&joints[j], j, pieces.iter(), &mut violations));
+    let least_clearance = sweep::check(scene, &pieces, passed_jumps, settings, keep_going, &mut violations);
+    violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
+    Verdict {
+        violations,
+        least_clearance,
+        joint_margins: reports.each_ref().map(|report| report.stops),
+        motion_margins: reports.map(|report| report.motion),
+        posture_changes: posture_changes::posture_changes(&pieces),
+    }
+}

@@ -1,0 +1,233 @@
+use thiserror::Error;
+
+/// What the verifier found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// Why the motion is not safe, in order of time; none when it is. Of every kind at most one per joint, or
+    /// per link and obstacle.
+    pub violations: Vec<Violation>,
+    /// The nearest that a link comes to an obstacle; `None` without obstacles.
+    pub least_clearance: Option<Clearance>,
+    /// How near each joint comes to its stops, base first; `None` for a joint without stops.
+    pub joint_margins: [Option<JointMargin>; 2],
+    /// The fastest of each joint, base first.
+    pub motion_margins: [MotionMargins; 2],
+    /// When the elbow changes sides (s), ascending; the first [`super::MOST_POSTURE_CHANGES`] of them. In a
+    /// continuous motion this happens at full stretch or fold only.
+    pub posture_changes: Vec<f64>,
+}
+
+impl Verdict {
+    /// Whether the motion is proved to be safe.
+    pub fn is_safe(&self) -> bool {
+        self.violations.is_empty()
+    }
+}
+
+/// The nearest that a link comes to an obstacle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clearance {
+    /// Between the link's outside and the obstacle (m); below 0 the depth.
+    pub distance: f64,
+    /// Proved: at no time is any link nearer to any obstacle than this (m). No more than 1e-6 m or 1 % below
+    /// `distance`, unless the budget ran out; `None` when the motion touches an obstacle or is not proved not to.
+    pub at_least: Option<f64>,
+    /// When (s).
+    pub time: f64,
+    /// 1 for the link at the base.
+    pub link: usize,
+    /// Its place among the scene's obstacles, from 0.
+    pub obstacle: usize,
+}
+
+/// How near a joint comes to its stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointMargin {
+    /// To the nearer stop (rad); below 0 beyond it.
+    pub distance: f64,
+    /// When (s).
+    pub time: f64,
+}
+
+/// The greatest absolute rates of one joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionMargins {
+    /// Of velocity (rad/s).
+    pub velocity: MotionMargin,
+    /// Of acceleration (rad/s²).
+    pub acceleration: MotionMargin,
+    /// Of jerk (rad/s³).
+    pub jerk: MotionMargin,
+}
+
+/// The greatest absolute value of one rate, beside its limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionMargin {
+    /// The greatest absolute value.
+    pub largest: f64,
+    /// When (s).
+    pub time: f64,
+    /// What is allowed; `None` where the user stated no limit.
+    pub limit: Option<f64>,
+}
+
+/// A rate of change of a joint's position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Rate {
+    /// In rad/s.
+    Velocity,
+    /// In rad/s².
+    Acceleration,
+    /// In rad/s³.
+    Jerk,
+}
+
+/// What must not jump where two pieces meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// In rad.
+    Position,
+    /// In rad/s.
+    Velocity,
+    /// In rad/s².
+    Acceleration,
+}
+
+impl Rate {
+    /// The word for it, in lower case.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+            Self::Jerk => "jerk",
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Velocity => "rad/s",
+            Self::Acceleration => "rad/s²",
+            Self::Jerk => "rad/s³",
+        }
+    }
+}
+
+impl Quantity {
+    /// The word for it, in lower case.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Velocity => "velocity",
+            Self::Acceleration => "acceleration",
+        }
+    }
+
+    /// Its unit.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Position => "rad",
+            Self::Velocity => "rad/s",
+            Self::Acceleration => "rad/s²",
+        }
+    }
+}
+
+/// A reason why a motion is not safe. Joints and links count from 1 at the base, obstacles from 0 as in the
+/// scene, times are in seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Violation {
+    /// A link comes as near to an obstacle as the margin, or touches it.
+    #[error(
+        "link {link} touches obstacle {obstacle} from {time} s on, {depth} m short of the clearance asked for"
+    )]
+    Contact {
+        /// When first.
+        time: f64,
+        /// Which link.
+        link: usize,
+        /// Which obstacle.
+        obstacle: usize,
+        /// By how much the clearance falls short of the margin (m), at the worst of this contact; how far a
+        /// centre line is inside a polygon does not count.
+        depth: f64,
+    },
+    /// It was not decided whether a link stays clear of an obstacle: the budget ran out, or the clearance
+    /// cannot be told from the floor in the arithmetic used.
+    #[error("whether link {link} stays clear of obstacle {obstacle} could not be decided from {time} s on")]
+    Undecided {
+        /// When first.
+        time: f64,
+        /// Which link.
+        link: usize,
+        /// Which obstacle.
+        obstacle: usize,
+    },
+    /// A joint turns beyond a stop.
+    #[error("joint {joint} turns to {angle} rad at {time} s, beyond its stop at {limit} rad")]
+    JointLimit {
+        /// Which joint.
+        joint: usize,
+        /// When it is the farthest beyond.
+        time: f64,
+        /// Where it then stands (rad).
+        angle: f64,
+        /// The stop (rad).
+        limit: f64,
+    },
+    /// A joint moves faster, or changes its speed faster, than allowed.
+    #[error("the {} of joint {joint} reaches {value} {} at {time} s, {limit} {} are allowed", rate.name(), rate.unit(), rate.unit())]
+    MotionLimit {
+        /// Which joint.
+        joint: usize,
+        /// Of what.
+        rate: Rate,
+        /// When it is the greatest.
+        time: f64,
+        /// The greatest absolute value.
+        value: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// Two pieces do not join.
+    #[error("the {} of joint {joint} jumps by {jump} {} at {time} s", what.name(), what.unit())]
+    Discontinuity {
+        /// Which joint.
+        joint: usize,
+        /// What jumps.
+        what: Quantity,
+        /// When it jumps the most.
+        time: f64,
+        /// By how much.
+        jump: f64,
+    },
+    /// The numbers of a piece are too large for the arithmetic.
+    #[error("the numbers of joint {joint} are too large in the piece that begins at {time} s")]
+    TooLarge {
+        /// Which joint.
+        joint: usize,
+        /// When the first such piece begins.
+        time: f64,
+    },
+    /// The verifier was told to stop before it was done.
+    #[error("the verifier was stopped before it was done with the motion")]
+    Stopped {
+        /// When the first piece begins that was not looked at in full.
+        time: f64,
+    },
+}
+
+impl Violation {
+    /// When (s).
+    pub fn time(&self) -> f64 {
+        match *self {
+            Self::Contact { time, .. }
+            | Self::Undecided { time, .. }
+            | Self::JointLimit { time, .. }
+            | Self::MotionLimit { time, .. }
+            | Self::Discontinuity { time, .. }
+            | Self::TooLarge { time, .. }
+            | Self::Stopped { time } => time,
+        }
+    }
+}
