@@ -68,7 +68,7 @@ def test_failures_are_short_and_have_their_exit_code(
 
 def test_a_wrong_scene_is_refused_with_its_place(tmp_path: Path) -> None:
     wrong = tmp_path / "wrong.yaml"
-    wrong.write_text("elbowroom: 1\nunits: {length: inch, angle: deg}\n")
+    wrong.write_text("elbowroom: 1\nunits: {length: inch, angle: deg}\narm: 1\ngrid: 1\n")
     for command in ("map", "plan"):
         failed = run(command, wrong)
         assert failed.returncode == 2

@@ -128,7 +128,9 @@ def test_ctrl_c_stops_the_core(standin: er.Scene) -> None:
 
 def test_stages_are_told_in_their_order(standin: er.Scene) -> None:
     seen: list[str] = []
-    plan = er.plan_as_in_paper(replace(standin, grid=replace(standin.grid, step=0.001)), task="first", on_stage=seen.append)
+    plan = er.plan_as_in_paper(
+        replace(standin, grid=replace(standin.grid, step=0.001)), task="first", on_stage=seen.append
+    )
     assert list(plan.timings) == ["free_space", "cost_to_go", "tip_path", "joint_path", "trajectory"]
     assert seen == list(plan.timings)[: len(seen)]
     assert seen

@@ -6,6 +6,17 @@ from numpy.typing import NDArray
 
 from elbowroom import scene
 
+__all__ = [
+    "FreeSpace",
+    "Motion",
+    "PaperPlan",
+    "Scene",
+    "SceneFile",
+    "__version__",
+    "free_space",
+    "plan_as_in_paper",
+]
+
 __version__: str
 
 @final
@@ -34,6 +45,7 @@ class FreeSpace:
     def cases(self) -> dict[str, int]: ...
 
 def free_space(scene: Scene, *, timeout: float | None = None) -> FreeSpace: ...
+
 @final
 class Motion:
     @property

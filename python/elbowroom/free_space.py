@@ -30,7 +30,7 @@ class FreeSpaceMap:
     @property
     def free(self) -> NDArray[np.bool_]:
         """Where the tip may stand."""
-        return self.state == 0
+        return np.equal(self.state, 0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +59,11 @@ def free_space(scene: Scene, *, timeout: float | None = None) -> FreeSpace:
         TimedOut: It took longer than ``timeout`` (s).
     """
     space = _core.free_space(scene.core, timeout=timeout)
-    up, down = (
-        FreeSpaceMap(posture, *space.states(i)) for i, posture in enumerate(("elbow-up", "elbow-down"))
-    )
+    up, down = (FreeSpaceMap(posture, *space.states(i)) for i, posture in enumerate(("elbow-up", "elbow-down")))
     rows, columns = up.state.shape
     return FreeSpace(
-        x=scene.grid.x[0] + scene.grid.step * np.arange(columns),
-        y=scene.grid.y[0] + scene.grid.step * np.arange(rows),
+        x=scene.grid.x[0] + scene.grid.step * np.arange(columns, dtype=np.float64),
+        y=scene.grid.y[0] + scene.grid.step * np.arange(rows, dtype=np.float64),
         elbow_up=up,
         elbow_down=down,
         cases=space.cases,

@@ -21,7 +21,8 @@ Floats = NDArray[np.float64]
 @dataclass(frozen=True, eq=False)
 class Samples:
     """A motion at instants ``t`` (s): joint positions, velocities, accelerations, jerks (rad, rad/s, ...) and elbow and
-    tip (m), shape ``(n, 2)`` each."""
+    tip (m), shape ``(n, 2)`` each.
+    """
 
     t: Floats
     q: Floats

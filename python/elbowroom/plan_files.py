@@ -14,7 +14,11 @@ PERIOD = 0.01
 
 COLUMNS = (
     "time_s",
-    *(f"{letter}{joint}_{unit}" for letter, unit in (("q", "rad"), ("v", "rad_s"), ("a", "rad_s2")) for joint in (1, 2)),
+    *(
+        f"{letter}{joint}_{unit}"
+        for letter, unit in (("q", "rad"), ("v", "rad_s"), ("a", "rad_s2"))
+        for joint in (1, 2)
+    ),
     "x_m",
     "y_m",
 )

@@ -120,9 +120,7 @@ class Scene:
     """The same scene as the core holds it."""
 
     def __post_init__(self) -> None:
-        core = _core.Scene(
-            arm=self.arm, grid=self.grid, obstacles=list(self.obstacles), tasks=list(self.tasks.items())
-        )
+        core = _core.Scene(arm=self.arm, grid=self.grid, obstacles=list(self.obstacles), tasks=list(self.tasks.items()))
         object.__setattr__(self, "core", core)
 
     @classmethod

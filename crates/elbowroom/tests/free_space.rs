@@ -3,6 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "judge/distance.rs"]
+mod distance;
+
 use std::f64::consts::{PI, TAU};
 
 use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
@@ -10,9 +13,6 @@ use elbowroom::free_space::{CONTACT_FLOOR, CellState, FreeSpace, Reason, configu
 use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Place, Scene, Shape};
-use parry2d_f64::math::{Pose, Vector};
-use parry2d_f64::query;
-use parry2d_f64::shape::{Ball, Segment};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -88,7 +88,7 @@ fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
 }
 
 /// The judge's answer, or `None` within `doubt` of a decision.
-fn judge(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<CellState> {
+fn judged(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<CellState> {
     let (base, [l1, l2]) = (scene.arm.base(), scene.arm.lengths());
     let (dx, dy) = (tip.x - base.x, tip.y - base.y);
     let distance = (dx * dx + dy * dy).sqrt();
@@ -120,7 +120,8 @@ fn judge(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<Cell
     let elbow = Point::new(base.x + l1 * q1.cos(), base.y + l1 * q1.sin());
     for (link, (a, b)) in [(base, elbow), (elbow, tip)].into_iter().enumerate() {
         for (index, obstacle) in scene.obstacles.iter().enumerate() {
-            let clearance = distance_by_parry(obstacle, a, b) - scene.arm.half_width() - CONTACT_FLOOR;
+            let clearance =
+                distance::distance(obstacle, [a.x, a.y], [b.x, b.y]) - scene.arm.half_width() - CONTACT_FLOOR;
             if clearance.abs() < doubt {
                 return None;
             }
@@ -130,38 +131,6 @@ fn judge(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<Cell
         }
     }
     Some(CellState::Free)
-}
-
-/// Distance from the obstacle to the segment; for circles negative inside.
-fn distance_by_parry(obstacle: &Obstacle, a: Point, b: Point) -> f64 {
-    let still = Pose::identity();
-    let link = Segment::new(Vector::new(a.x, a.y), Vector::new(b.x, b.y));
-    match &obstacle.shape {
-        Shape::Circle(c) => {
-            // A dot in place of the disc: the library reports 0 inside, where the depth is wanted.
-            let dot = Ball::new(0.0);
-            let at = Pose::translation(c.center.x, c.center.y);
-            query::distance(&still, &link, &at, &dot).unwrap().distance - c.radius
-        }
-        Shape::Polygon(polygon) => {
-            let corners = polygon.vertices();
-            let winding: f64 = (0..corners.len())
-                .map(|i| {
-                    let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
-                    let (px, py, qx, qy) = (p.x - a.x, p.y - a.y, q.x - a.x, q.y - a.y);
-                    (px * qy - py * qx).atan2(px * qx + py * qy)
-                })
-                .sum();
-            let to_edges = (0..corners.len())
-                .map(|i| {
-                    let (p, q) = (corners[i], corners[(i + 1) % corners.len()]);
-                    let edge = Segment::new(Vector::new(p.x, p.y), Vector::new(q.x, q.y));
-                    query::distance(&still, &link, &still, &edge).unwrap().distance
-                })
-                .fold(f64::INFINITY, f64::min);
-            if winding.abs() > PI || to_edges == 0.0 { -1.0 } else { to_edges }
-        }
-    }
 }
 
 #[test]
@@ -175,7 +144,7 @@ fn maps_of_a_thousand_random_scenes_equal_the_judge() {
         for posture in Posture::ALL {
             for (cell, state) in space.map(posture).states().iter().enumerate() {
                 let tip = scene.grid.point(cell);
-                match judge(&scene, tip, posture, 1e-7) {
+                match judged(&scene, tip, posture, 1e-7) {
                     None => doubtful += 1,
                     Some(expected) => {
                         assert_eq!(*state, expected, "{posture:?} at {tip:?} in {scene:#?}");

@@ -16,8 +16,7 @@ def reported() -> Iterator[None]:
     """Turn what elbowroom raises into a line on stderr and an exit code."""
     import typer
 
-    from elbowroom.errors import InternalError, NotFound, TimedOut
-    from elbowroom.errors import ElbowroomError
+    from elbowroom.errors import ElbowroomError, InternalError, NotFound, TimedOut
 
     try:
         yield

@@ -1,4 +1,4 @@
-"""``elbowroom map``"""
+"""The command ``elbowroom map``."""
 
 from __future__ import annotations
 

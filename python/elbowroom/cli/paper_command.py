@@ -1,4 +1,4 @@
-"""``elbowroom paper``"""
+"""The command ``elbowroom paper``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``elbowroom plan``"""
+"""The command ``elbowroom plan``."""
 
 from __future__ import annotations
 
@@ -51,7 +51,9 @@ def plan_command(
             return
         spent = sum(plan.timings.values())
         typer.echo(f"{plan.planner}: path of {plan.cost:.6f} m for task '{plan.task}', found in {spent * 1e3:.1f} ms")
-        typer.echo(f"motion of {plan.motion.duration:g} s through {len(plan.vias)} via points: NOT VERIFIED, do not run it")
+        typer.echo(
+            f"motion of {plan.motion.duration:g} s through {len(plan.vias)} via points: NOT VERIFIED, do not run it"
+        )
         if plan.jumps:
             typer.echo(f"{len(plan.jumps)} of its steps jump between postures or across a stop: no arm can follow")
         for path in written:

@@ -24,8 +24,15 @@ def tip_curve(plan: Plan, *, of: str) -> Figure:
     times = np.append(plan.motion.starts, plan.motion.duration)
     axes.plot(t, _values(plan, of, t), color=colour, linewidth=2.0, label=of)
     axes.plot(
-        times, _values(plan, of, times), "D", color="white", markeredgecolor=INK, markersize=5, label="via point",
-        clip_on=False, zorder=5,
+        times,
+        _values(plan, of, times),
+        "D",
+        color="white",
+        markeredgecolor=INK,
+        markersize=5,
+        label="via point",
+        clip_on=False,
+        zorder=5,
     )
     axes.set_xlabel("time (s)")
     axes.set_ylabel(label)

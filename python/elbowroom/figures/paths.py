@@ -53,7 +53,14 @@ def smoothed_path(plan: Plan) -> Figure:
     _line(axes, samples.tip, color=SMOOTHED, linewidth=2.2, zorder=5, label="smoothed")
     vias = plan.tip_path[plan.vias] * CM
     axes.plot(
-        vias[:, 0], vias[:, 1], "D", color="white", markeredgecolor=INK, markersize=5, zorder=6, label="via point",
+        vias[:, 0],
+        vias[:, 1],
+        "D",
+        color="white",
+        markeredgecolor=INK,
+        markersize=5,
+        zorder=6,
+        label="via point",
         linestyle="none",
     )
     _ends(axes, plan)

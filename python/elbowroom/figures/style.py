@@ -1,5 +1,6 @@
 """How pictures look: one palette (Okabe and Ito, told apart by colour-blind readers), one unit, one way to draw a
-scene."""
+scene.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +38,8 @@ def new_figure(width: float = 6.4, height: float = 5.2) -> tuple[Figure, Axes]:
 
 def plane(title: str, scene: Scene) -> tuple[Figure, Axes]:
     """Return a figure of the plane of ``scene``'s grid, both axes in the same scale, the obstacles as large as they
-    are."""
+    are.
+    """
     figure, axes = new_figure(width=7.2)
     axes.set_aspect("equal")
     axes.set_xlim(scene.grid.x[0] * CM, scene.grid.x[1] * CM)
@@ -84,7 +86,13 @@ def mark_ends(axes: Axes, start: tuple[float, float], goal: tuple[float, float])
 def mark_base(axes: Axes, scene: Scene) -> None:
     """Mark the base of the arm."""
     axes.plot(
-        scene.arm.base[0] * CM, scene.arm.base[1] * CM, "s", color=INK, markersize=6, zorder=6, label="base",
+        scene.arm.base[0] * CM,
+        scene.arm.base[1] * CM,
+        "s",
+        color=INK,
+        markersize=6,
+        zorder=6,
+        label="base",
         linestyle="none",
     )
 

@@ -42,7 +42,7 @@ def _printed(trials: Sequence[Trial]) -> str:
     for task in TASKS:
         standin, empty = _of(trials, "paper-standin", task.name), _of(trials, "paper-empty", task.name)
         grid = octile(task.start, task.goal)
-        ours = f"{_cost(standin)} (`paper-standin`), {_cost(empty)} (`paper-empty`)"
+        ours = f"`paper-standin`: {_cost(standin)}; `paper-empty`: {_cost(empty)}"
         if task.name == "first":
             bound = around_disc(task.start, task.goal, radius)
             answer = "no"
@@ -78,19 +78,18 @@ def _printed(trials: Sequence[Trial]) -> str:
 def _bounds() -> str:
     radius = nearest_reach(LINKS, math.radians(BEND))
     rows = ["| bound | task first | task second |", "|---|---|---|"]
-    first, second = TASKS
     lines = (
-        ("straight line", lambda t: math.dist(t.start, t.goal)),
-        ("eight neighbours, 1 cm, nothing in the way", lambda t: octile(t.start, t.goal)),
-        (f"around the hole of {radius:.3f}", lambda t: around_disc(t.start, t.goal, radius)),
-        ("around the hole, the long way", lambda t: around_disc(t.start, t.goal, radius, long_way=True)),
+        ("straight line", [math.dist(t.start, t.goal) for t in TASKS]),
+        ("eight neighbours, 1 cm, nothing in the way", [octile(t.start, t.goal) for t in TASKS]),
+        (f"around the hole of {radius:.3f}", [around_disc(t.start, t.goal, radius) for t in TASKS]),
+        ("around the hole, the long way", [around_disc(t.start, t.goal, radius, long_way=True) for t in TASKS]),
     )
-    rows += [f"| {name} | {of(first):.4f} | {of(second):.4f} |" for name, of in lines]
+    rows += [f"| {name} | {first:.4f} | {second:.4f} |" for name, (first, second) in lines]
     return (
         "## Bounds in closed form\n\n"
-        f"With links of {LINKS[0]:g} + {LINKS[1]:g} and joint 2 within ±{BEND:g}° the tip cannot come nearer to the base "
-        f"than {radius:.3f}: the workspace is a ring, and a path through it is never shorter than a tangent, an arc of "
-        "the hole and a tangent.\n\n" + "\n".join(rows)
+        f"With links of {LINKS[0]:g} + {LINKS[1]:g} and joint 2 within ±{BEND:g}° the tip cannot come nearer to the "
+        f"base than {radius:.3f}: the workspace is a ring, and a path through it is never shorter than a tangent, an "
+        "arc of the hole and a tangent.\n\n" + "\n".join(rows)
     )
 
 
@@ -111,7 +110,9 @@ def _runs(trials: Sequence[Trial]) -> str:
             f"{trial.jumped} of {trial.seeds} |"
         )
     return (
-        "## Runs\n\n" + "\n".join(rows) + "\n\nA path jumps if, with the best choice of a configuration for each of its "
+        "## Runs\n\n"
+        + "\n".join(rows)
+        + "\n\nA path jumps if, with the best choice of a configuration for each of its "
         "places, some step would need the other posture away from full stretch, or a joint across its stop: no arm can "
         "follow it."
     )
@@ -128,7 +129,7 @@ def _table_1(trials: Sequence[Trial]) -> str:
     for task in TASKS:
         trial = _of(trials, "paper-table1", task.name)
         missed = ", ".join(f"{step * 100:g}" for step in trial.steps_without_path)
-        found = f"found at {trial.step * 100:g} cm, {_cost(trial)} long" if trial.dstar else "no finer grid tried finds one"
+        found = f"found at {trial.step * 100:g} cm: {_cost(trial)}" if trial.dstar else "no finer grid tried finds one"
         lines.append(f"- task {task.name}: no path at {missed} cm; {found}.")
     return "\n".join(lines)
 
@@ -137,11 +138,18 @@ def _cases(maps: Maps) -> str:
     rows = ["| scene | two configurations | one | none |", "|---|---|---|---|"]
     for name, (space, _) in maps.items():
         rows.append(f"| {name} | {space.cases['two']} | {space.cases['one']} | {space.cases['none']} |")
-    return "## The three cases of section 4\n\nGrid points by how many free configurations put the tip there.\n\n" + "\n".join(rows)
+    return (
+        "## The three cases of section 4\n\nGrid points by how many free configurations put the tip there.\n\n"
+        + "\n".join(rows)
+    )
 
 
 def _pictures(trials: Sequence[Trial], maps: Maps, folder: Path) -> str:
-    lines = ["## Figures", "", "Numbered as in the paper; its elbow-down is the negative sign of its equations, elbow-up here."]
+    lines = [
+        "## Figures",
+        "",
+        "Numbered as in the paper; its elbow-down is the negative sign of its equations, elbow-up here.",
+    ]
     for name, (_, pictures) in maps.items():
         lines += ["", f"### {name}", ""]
         all_pictures = [*pictures, *(p for trial in trials if _named(trial, name) for p in trial.pictures)]
@@ -158,4 +166,6 @@ def _named(trial: Trial, scene: str) -> bool:
 
 
 def _cost(trial: Trial) -> str:
-    return f"{trial.swarm.cost * 100:.4f}" if trial.swarm else "no path at 1 cm"
+    if trial.dstar is None or trial.swarm is None:
+        return "no path"
+    return f"D* {trial.dstar.cost * 100:.4f}, swarm {trial.swarm.cost * 100:.4f}"

@@ -24,7 +24,8 @@ FINER_STEPS = (0.005, 0.002, 0.001)
 @dataclass(frozen=True)
 class Trial:
     """What one task of one scene gives. ``dstar`` and ``swarm`` are None where no path was found down to the grid
-    ``step`` (m)."""
+    ``step`` (m).
+    """
 
     scene: Scene
     space: FreeSpace
@@ -142,6 +143,4 @@ def _draw(plan: Plan, space: FreeSpace, task: PrintedTask, folder: Path) -> list
         figures.arm_tracking(plan),
         *(figures.tip_curve(plan, of=of) for of in ("x", "y", "theta 1", "theta 2")),
     ]
-    return [
-        figures.save(figure, folder / f"figure_{task.first_figure + i:02}.png") for i, figure in enumerate(drawn)
-    ]
+    return [figures.save(figure, folder / f"figure_{task.first_figure + i:02}.png") for i, figure in enumerate(drawn)]

@@ -32,6 +32,16 @@ pub fn sweep_is_free(scene: &Scene, from: &Configuration<2>, to: &Configuration<
     })
 }
 
+/// Clearance of each link at `q` from the nearest obstacle, less [`CERTIFIED_CLEARANCE`] (m).
+///
+/// With the sum of two of these above [`motion_bounds`], both links are clear all along the straight turn.
+pub fn certified_clearance(scene: &Scene, q: &Configuration<2>) -> [f64; 2] {
+    scene.arm.links(q).map(|link| {
+        let distances = scene.obstacles.iter().map(|obstacle| obstacle.distance_to_segment(link));
+        distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width() - CERTIFIED_CLEARANCE
+    })
+}
+
 /// A configuration with the links it makes.
 struct Pose {
     q: Configuration<2>,
@@ -45,7 +55,7 @@ impl Pose {
 }
 
 /// How far a point of each link can move (m) while the joints turn evenly from `from` to `to`.
-fn motion_bounds(arm: &TwoLinkArm, from: &Configuration<2>, to: &Configuration<2>) -> [f64; 2] {
+pub fn motion_bounds(arm: &TwoLinkArm, from: &Configuration<2>, to: &Configuration<2>) -> [f64; 2] {
     let [l1, l2] = arm.lengths();
     let (turn1, turn2) = (to.0[0] - from.0[0], to.0[1] - from.0[1]);
     let first = l1 * turn1.abs();

@@ -4,7 +4,7 @@ use super::sheets::{Sheets, direct};
 use crate::arm::{Configuration, Posture};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
-use crate::path::sweep_is_free;
+use crate::path::{JointPath, certified_clearance, motion_bounds, sweep_is_free};
 use crate::scene::Scene;
 use crate::search::Graph;
 
@@ -14,6 +14,13 @@ const FLIP_BAND: f64 = 2.0;
 
 /// Least cost of an edge, in grid steps: the search needs costs that do not vanish in a sum.
 const LEAST_COST: f64 = 1e-9;
+
+/// A turn of at least this much (rad) that is not free is tried again in halves: near full stretch and fold a
+/// small step of the tip swings the elbow wide.
+const WIDE_TURN: f64 = 0.05;
+
+/// How often a turn is halved.
+const MOST_HALVINGS: u32 = 3;
 
 /// Where the arm can be, and from where it can turn straight to where: nodes are free configurations over
 /// grid points, in both postures, and the exact start and goal configurations; edges are certified sweeps.
@@ -27,6 +34,7 @@ pub(crate) struct PostureGraph<'a> {
     may_flip: bool,
     places: Vec<PlaceNode>,
     verdicts: Vec<Cell<Verdicts>>,
+    clearances: Vec<Cell<Option<[f64; 2]>>>,
 }
 
 /// A configuration that is not over a grid point: a start or a goal.
@@ -48,7 +56,8 @@ impl<'a> PostureGraph<'a> {
     pub(crate) fn new(scene: &'a Scene, space: &FreeSpace, may_flip: bool) -> Self {
         let sheets = Sheets::new(&scene.arm, &scene.grid, space);
         let verdicts = vec![Cell::new(Verdicts::default()); sheets.len()];
-        Self { scene, sheets, may_flip, places: Vec::new(), verdicts }
+        let clearances = vec![Cell::new(None); sheets.len()];
+        Self { scene, sheets, may_flip, places: Vec::new(), verdicts, clearances }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
@@ -96,12 +105,68 @@ impl<'a> PostureGraph<'a> {
         }
     }
 
+    /// The configurations along `nodes`, joined by certified straight turns, the turns of continuous joints
+    /// counted; `None` when two nodes are no neighbours.
+    pub(crate) fn joint_path(&self, nodes: &[usize]) -> Option<JointPath> {
+        let mut places: Vec<Configuration<2>> = Vec::with_capacity(nodes.len());
+        for &node in nodes {
+            let to = self.configuration(node)?;
+            if let Some(from) = places.last().copied() {
+                let mut between = Vec::new();
+                // Rounding may refuse in this direction what was certified in the other; the verifier decides.
+                if self.connect(&from, to, MOST_HALVINGS, &mut between) {
+                    places.extend(between);
+                }
+                let last = places.last().copied().unwrap_or(from);
+                places.push(direct(&self.scene.arm, &last, to)?);
+            } else {
+                places.push(*to);
+            }
+        }
+        Some(JointPath(places))
+    }
+
     fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
         let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
-        if changes && !self.may_flip {
+        (self.may_flip || !changes) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
+    }
+
+    /// Whether the arm can turn from `from` to `to`: straight or, where that would swing wide, by way of
+    /// configurations `between` that put the tip on the straight line.
+    fn connect(
+        &self,
+        from: &Configuration<2>,
+        to: &Configuration<2>,
+        halvings: u32,
+        between: &mut Vec<Configuration<2>>,
+    ) -> bool {
+        let arm = &self.scene.arm;
+        let Some(to) = direct(arm, from, to) else { return false };
+        if sweep_is_free(self.scene, from, &to) {
+            return true;
+        }
+        let posture = match (Posture::of(from), Posture::of(&to)) {
+            (Some(a), Some(b)) if a != b => return false,
+            (Some(posture), _) | (None, Some(posture)) => posture,
+            (None, None) => return false,
+        };
+        if halvings == 0 || from.distance(&to) < WIDE_TURN {
             return false;
         }
-        direct(&self.scene.arm, from, to).is_some_and(|to| sweep_is_free(self.scene, from, &to))
+        let (a, b) = (arm.tip(from), arm.tip(&to));
+        let middle = a + (b - a) * 0.5;
+        let on_line = arm.inverse(middle, posture).unwrap_or_default();
+        let halfway = from.lerp(&to, 0.5);
+        let nearest = on_line
+            .iter()
+            .filter_map(|q| direct(arm, from, q))
+            .min_by(|p, q| p.distance(&halfway).total_cmp(&q.distance(&halfway)));
+        let Some(middle) = nearest else { return false };
+        if !self.connect(from, &middle, halvings - 1, between) {
+            return false;
+        }
+        between.push(middle);
+        self.connect(&middle, &to, halvings - 1, between)
     }
 
     /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
@@ -130,11 +195,33 @@ impl<'a> PostureGraph<'a> {
         if verdicts.known & bit != 0 {
             return verdicts.free & bit != 0;
         }
-        let free = self.sheets.configuration(other).is_some_and(|to| self.is_certified(q, to));
+        let free = self
+            .sheets
+            .configuration(other)
+            .is_some_and(|to| self.is_clear_at_a_glance((node, q), (other, to)) || self.is_certified(q, to));
         self.keep(node, bit, free);
         // Directions go once round, so the way back is four further.
         self.keep(other, 1 << ((direction + 4) % 8), free);
         free
+    }
+
+    /// Whether the clearances at both ends are enough to certify the straight turn between two nodes of a sheet.
+    fn is_clear_at_a_glance(&self, from: (usize, &Configuration<2>), to: (usize, &Configuration<2>)) -> bool {
+        let arm = &self.scene.arm;
+        direct(arm, from.1, to.1).is_some_and(|end| {
+            let bounds = motion_bounds(arm, from.1, &end);
+            let (a, b) = (self.clearance(from.0, from.1), self.clearance(to.0, to.1));
+            (0..2).all(|link| a[link] + b[link] > bounds[link])
+        })
+    }
+
+    /// Clearance of each link at `node` beyond what is to be kept (m).
+    fn clearance(&self, node: usize, q: &Configuration<2>) -> [f64; 2] {
+        self.clearances[node].get().unwrap_or_else(|| {
+            let found = certified_clearance(self.scene, q);
+            self.clearances[node].set(Some(found));
+            found
+        })
     }
 
     fn keep(&self, node: usize, bit: u8, free: bool) {
@@ -146,11 +233,18 @@ impl<'a> PostureGraph<'a> {
 
     /// Edges from `node` to other sheets, over `cell` itself or a neighbour: to another turn of the same
     /// posture anywhere, to the other posture near full stretch and fold.
-    fn visit_across(&self, node: usize, q: &Configuration<2>, cell: usize, visit: &mut impl FnMut(usize, f64)) {
+    fn visit_across(
+        &self,
+        node: usize,
+        q: &Configuration<2>,
+        cell: usize,
+        visit: &mut impl FnMut(usize, f64),
+    ) {
         let (from, to) = (self.tip(node), self.scene.grid.point(cell));
         let near_edge = || self.may_flip && self.to_edge(from).max(self.to_edge(to)) <= self.flip_band();
         for other in self.sheets.over(cell) {
-            if self.sheets.same_sheet(node, other) || !(self.sheets.same_posture(node, other) || near_edge()) {
+            if self.sheets.same_sheet(node, other) || !(self.sheets.same_posture(node, other) || near_edge())
+            {
                 continue;
             }
             let Some(target) = self.sheets.configuration(other) else { continue };

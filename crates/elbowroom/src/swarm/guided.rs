@@ -31,6 +31,8 @@ pub struct GuidedSwarmSettings {
     pub c_euclid: f64,
     /// Greatest speed (m), or none.
     pub v_max: Option<f64>,
+    /// Paths that cost more than the best by no more than this share of it are kept too.
+    pub keep_within: f64,
 }
 
 impl Default for GuidedSwarmSettings {
@@ -42,6 +44,7 @@ impl Default for GuidedSwarmSettings {
             c_dstar: 3.0,
             c_euclid: 1.0,
             v_max: None,
+            keep_within: 0.0,
         }
     }
 }
@@ -80,6 +83,7 @@ impl GuidedSwarmSettings {
             ("c_dstar", self.c_dstar),
             ("c_euclid", self.c_euclid),
             ("v_max", self.v_max.unwrap_or(0.0)),
+            ("keep_within", self.keep_within),
         ];
         match named.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0)) {
             Some((name, value)) => Err(GuidedSwarmError::Coefficient { name, value }),
@@ -106,13 +110,15 @@ pub struct Terrain<'a, G> {
     pub is_goal: &'a dyn Fn(usize) -> bool,
 }
 
-/// The candidate paths of least cost.
+/// The candidate paths of least cost, and those that cost hardly more.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnPaths {
-    /// Their cost (m): eq. (10).
+    /// The least cost (m): eq. (10).
     pub cost: f64,
-    /// All different ones, as nodes, in the order they were drawn.
+    /// All different paths that are kept, as nodes, in the order they were drawn.
     pub paths: Vec<Vec<usize>>,
+    /// What each of them costs (m).
+    pub costs: Vec<f64>,
     /// How many candidates were drawn.
     pub candidates: usize,
     /// How often a dead point made a candidate step back.
@@ -132,9 +138,16 @@ pub fn draw_paths<G: Graph>(
     seed: u64,
     keep_going: &dyn Fn() -> bool,
 ) -> Option<DrawnPaths> {
-    let mut best = DrawnPaths { cost: f64::INFINITY, paths: Vec::new(), candidates: 0, dead_points: 0 };
+    let mut drawn = DrawnPaths {
+        cost: f64::INFINITY,
+        paths: Vec::new(),
+        costs: Vec::new(),
+        candidates: 0,
+        dead_points: 0,
+    };
     let mut known = HashSet::new();
     let mut visited = Visited { by: vec![0; terrain.graph.len()], walker: 0 };
+    let within = |cost: f64, best: f64| cost <= best * (1.0 + settings.keep_within.max(EQUAL_COST));
     for index in 0..settings.candidates {
         if !keep_going() {
             return None;
@@ -144,19 +157,19 @@ pub fn draw_paths<G: Graph>(
         let walk = Walk { terrain, settings, inertia: settings.inertia(index) };
         visited.walker += 1;
         let candidate = walk.candidate(start, &mut visited, &mut rng)?;
-        best.candidates += 1;
-        best.dead_points += candidate.dead_points;
-        let slack = EQUAL_COST * candidate.cost.min(best.cost);
-        if candidate.cost < best.cost - slack || best.paths.is_empty() {
-            best.cost = candidate.cost;
-            best.paths.clear();
-            known.clear();
-        }
-        if candidate.cost <= best.cost + slack && known.insert(candidate.nodes.clone()) {
-            best.paths.push(candidate.nodes);
+        drawn.candidates += 1;
+        drawn.dead_points += candidate.dead_points;
+        drawn.cost = drawn.cost.min(candidate.cost);
+        if within(candidate.cost, drawn.cost) && known.insert(candidate.nodes.clone()) {
+            drawn.costs.push(candidate.cost);
+            drawn.paths.push(candidate.nodes);
         }
     }
-    Some(best)
+    let best = drawn.cost;
+    // What was kept beside an early best may be too long beside the last.
+    (drawn.costs, drawn.paths) =
+        drawn.costs.into_iter().zip(drawn.paths).filter(|&(cost, _)| within(cost, best)).unzip();
+    Some(drawn)
 }
 
 /// Which candidate was last at each node: one array for all of them.

@@ -1,5 +1,6 @@
 //! Motion over time: polynomial pieces per joint.
 
+mod length;
 mod motion;
 mod peak;
 mod piece;

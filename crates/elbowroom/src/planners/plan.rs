@@ -1,0 +1,87 @@
+use thiserror::Error;
+
+use super::limits::AssumedLimit;
+use crate::arm::Posture;
+use crate::free_space::NotFree;
+use crate::path::{JointPath, TipPath};
+use crate::search::GoalError;
+use crate::swarm::GuidedSwarmError;
+use crate::trajectory::MotionError;
+use crate::verify::{Trajectory, Verdict};
+
+/// What a planner found: a motion that is proved to be safe, and how it came to be.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// What the motion costs, in terms of the objective: metres, radians or seconds.
+    pub cost: f64,
+    /// Length of the path that the motion was made from, tip travel along its edges (m).
+    pub path_cost: f64,
+    /// How many different paths the choice was among.
+    pub paths_to_choose_from: usize,
+    /// Where the tip is at each place of `joint_path`.
+    pub tip_path: TipPath,
+    /// Configurations from start to goal; the straight turns between them are certified free.
+    pub joint_path: JointPath,
+    /// Places of the path that the motion is led through, by their index.
+    pub vias: Vec<usize>,
+    /// How many of them, ends left out, it stops at.
+    pub stops: usize,
+    /// The motion, with the verifier's verdict.
+    pub trajectory: Trajectory,
+    /// Motion limits that the scene does not state, and what was taken in their place.
+    pub assumed_limits: Vec<AssumedLimit>,
+}
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    /// A setting of the swarm makes no sense.
+    #[error(transparent)]
+    Swarm(#[from] GuidedSwarmError),
+    /// The motion shall take no time, or a time that is no number.
+    #[error("duration is {duration} s, it must be finite and greater than 0")]
+    Duration {
+        /// What was asked (s).
+        duration: f64,
+    },
+    /// The motion limits of the scene do not allow so short a duration along the path found.
+    #[error(
+        "duration is {duration} s, the motion limits allow {fastest:.6} s at the fastest along the path found"
+    )]
+    TooFast {
+        /// What was asked (s).
+        duration: f64,
+        /// What is possible (s).
+        fastest: f64,
+    },
+    /// The task begins at a place that is not free.
+    #[error("start: {0}")]
+    Start(NotFree),
+    /// The task ends at a place that is not free.
+    #[error("goal: {0}")]
+    Goal(NotFree),
+    /// The goal is free, but not in the posture asked for.
+    #[error("goal: not free {}, the posture asked for", wanted.name())]
+    GoalPosture {
+        /// Which was asked for.
+        wanted: Posture,
+    },
+    /// The grid does not connect start and goal; a finer one may.
+    #[error("not found at this resolution: no certified path over the free grid points, {step} m apart")]
+    NotFound {
+        /// Distance between grid points (m).
+        step: f64,
+    },
+    /// The monitor stopped it.
+    #[error("stopped before a path was found")]
+    Stopped,
+    /// A goal is no node of the graph.
+    #[error(transparent)]
+    GoalNode(#[from] GoalError),
+    /// The polynomials overflow.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The verifier refuses straight turns that the planner certified.
+    #[error("the verifier refuses certified turns: {:?}", .0.violations)]
+    Refused(Box<Verdict>),
+}

@@ -1,0 +1,67 @@
+use crate::swarm::GuidedSwarmSettings;
+
+/// Which path over the cost-to-go is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// D*'s back-pointers alone.
+    Dstar,
+    /// The best of the paths that the modified lbest swarm draws.
+    DstarPso(GuidedSwarmSettings),
+}
+
+/// What a motion shall cost little of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Objective {
+    /// Length of the tip's way (m).
+    #[default]
+    Tip,
+    /// Length of the way in configuration space (rad).
+    Joint,
+    /// Time under the motion limits (s).
+    Time,
+}
+
+impl Objective {
+    /// The word for it in files and on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Tip => "tip",
+            Self::Joint => "joint",
+            Self::Time => "time",
+        }
+    }
+}
+
+/// How long a motion takes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Pace {
+    /// As short as the planner finds under the motion limits.
+    #[default]
+    Fastest,
+    /// This long (s).
+    Duration(f64),
+}
+
+/// How a task is planned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PlanSettings {
+    /// How the path is found.
+    pub method: Method,
+    /// What the choice among paths goes by.
+    pub objective: Objective,
+    /// How long the motion takes.
+    pub pace: Pace,
+    /// Seed of the swarm.
+    pub seed: u64,
+}
+
+impl Default for PlanSettings {
+    fn default() -> Self {
+        Self {
+            method: Method::DstarPso(GuidedSwarmSettings::default()),
+            objective: Objective::default(),
+            pace: Pace::default(),
+            seed: 0,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! From certified straight turns to a smooth motion that the verifier accepts.
+
+use super::Monitor;
+use super::settings::Pace;
+use crate::path::{JointPath, simplify};
+use crate::scene::Scene;
+use crate::trajectory::{
+    Motion, MotionError, Piece, SpeedLimits, Via, fastest_durations, quintic_through, stretch,
+};
+use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
+
+/// How far elbow and tip may stray from the path before the verifier is asked, in grid steps: from here vias are
+/// added only where it refuses.
+const FIRST_TOLERANCE: f64 = 1.0;
+
+/// Rounds of adding vias; after them every refused stretch becomes straight turns from stop to stop.
+const ROUNDS: usize = 24;
+
+/// How a motion came to be.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Smoothed {
+    pub(crate) trajectory: Trajectory,
+    /// Places of the path that the motion is led through, by their index.
+    pub(crate) vias: Vec<usize>,
+    /// How many of them, ends left out, it stops at.
+    pub(crate) stops: usize,
+}
+
+/// Why there is no motion along a certified path.
+#[derive(Debug)]
+pub(crate) enum SmoothError {
+    /// The monitor stopped it.
+    Stopped,
+    /// The duration asked for is shorter than the limits allow (s).
+    TooFast { fastest: f64 },
+    /// Numbers overflow.
+    Motion(MotionError),
+    /// Even straight turns from stop to stop are refused, which certified turns should not be.
+    Refused(Box<Verdict>),
+}
+
+/// A motion through places of `path`, whose straight turns from place to place are certified free.
+///
+/// Quintic pieces through few vias at first; where the verifier refuses a piece, places between its ends become
+/// vias too, and where none is left the piece is turned straight, from stop to stop.
+pub(crate) fn smooth(
+    scene: &Scene,
+    path: &JointPath,
+    limits: &[SpeedLimits; 2],
+    stated: &[SpeedLimits; 2],
+    pace: Pace,
+    monitor: &impl Monitor,
+) -> Result<Smoothed, SmoothError> {
+    let places = &path.0;
+    let mut chosen = simplify(&scene.arm, path, FIRST_TOLERANCE * scene.grid.step());
+    let mut stops = vec![false; places.len()];
+    for end in [0, places.len() - 1] {
+        stops[end] = true;
+    }
+    for round in 0.. {
+        if !monitor.keep_going() {
+            return Err(SmoothError::Stopped);
+        }
+        let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: places[i], stop: stops[i] }).collect();
+        let motion = timed(&vias, limits, stated, pace)?;
+        let keep_going = || monitor.keep_going();
+        let verdict = match Trajectory::certify_until(scene, motion, &VerifySettings::default(), &keep_going)
+        {
+            Ok(trajectory) => {
+                let inner = chosen.len().saturating_sub(1);
+                let stops = (1..inner).filter(|&k| stops[chosen[k]]).count();
+                return Ok(Smoothed { trajectory, vias: chosen, stops });
+            }
+            Err(verdict) => verdict,
+        };
+        let refused = refused_pieces(&verdict, &durations_of(&vias, limits, stated, pace)?)?;
+        let before = (chosen.len(), stops.iter().filter(|stop| **stop).count());
+        for &piece in refused.iter().rev() {
+            let (from, to) = (chosen[piece], chosen[piece + 1]);
+            if round >= ROUNDS || to - from == 1 {
+                (from..=to).for_each(|i| stops[i] = true);
+                chosen.splice(piece + 1..piece + 1, from + 1..to);
+            } else {
+                chosen.insert(piece + 1, usize::midpoint(from, to));
+            }
+        }
+        if before == (chosen.len(), stops.iter().filter(|stop| **stop).count()) {
+            return Err(SmoothError::Refused(verdict));
+        }
+    }
+    Err(SmoothError::Stopped)
+}
+
+/// Durations of the pieces between `vias`: the fastest found, or stretched evenly to what was asked.
+fn durations_of(
+    vias: &[Via],
+    limits: &[SpeedLimits; 2],
+    stated: &[SpeedLimits; 2],
+    pace: Pace,
+) -> Result<Vec<f64>, SmoothError> {
+    let mut durations = fastest_durations(vias, limits);
+    if let Pace::Duration(asked) = pace {
+        let fastest: f64 = durations.iter().sum();
+        let pieces = quintic_through(vias, &durations);
+        // Only what the scene states forbids a duration; the rest is taste.
+        let needed = pieces.iter().map(|piece| stretch(piece, stated)).fold(0.0, f64::max) * fastest;
+        if asked < needed {
+            return Err(SmoothError::TooFast { fastest: needed });
+        }
+        durations.iter_mut().for_each(|duration| *duration *= asked / fastest);
+    }
+    Ok(durations)
+}
+
+fn timed(
+    vias: &[Via],
+    limits: &[SpeedLimits; 2],
+    stated: &[SpeedLimits; 2],
+    pace: Pace,
+) -> Result<Motion<2>, SmoothError> {
+    let pieces: Vec<Piece<2>> = quintic_through(vias, &durations_of(vias, limits, stated, pace)?);
+    Motion::new(pieces).map_err(SmoothError::Motion)
+}
+
+/// The pieces that the verifier's complaints fall on, in order.
+fn refused_pieces(verdict: &Verdict, durations: &[f64]) -> Result<Vec<usize>, SmoothError> {
+    if verdict.violations.iter().any(|violation| matches!(violation, Violation::Stopped { .. })) {
+        return Err(SmoothError::Stopped);
+    }
+    let ends: Vec<f64> = durations
+        .iter()
+        .scan(0.0, |end, duration| {
+            *end += duration;
+            Some(*end)
+        })
+        .collect();
+    let at = |time: f64| ends.partition_point(|end| *end <= time).min(durations.len().saturating_sub(1));
+    let mut refused: Vec<usize> = verdict.violations.iter().map(|violation| at(violation.time())).collect();
+    refused.sort_unstable();
+    refused.dedup();
+    Ok(refused)
+}

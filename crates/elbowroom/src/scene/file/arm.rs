@@ -1,0 +1,83 @@
+use super::error::Problem;
+use super::keys;
+use super::units::Units;
+use super::value::{Fault, Map, Value};
+use crate::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
+use crate::geometry::Point;
+
+pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault> {
+    let map = value.map(&keys::ARM)?;
+    let links_value = map.required("links")?;
+    let links = links_value.list("a list of link lengths")?;
+    let lengths = links
+        .iter()
+        .map(|link| match link.length(units)? {
+            length if length > 0.0 => Ok(length),
+            _ => Err(link.out_of_range("greater than 0")),
+        })
+        .collect::<Result<Vec<f64>, Fault>>()?;
+    let joints_value = map.required("joints")?;
+    let joints = joints_value.list("a list of joints")?;
+    let lengths = <[f64; 2]>::try_from(lengths)
+        .map_err(|found| links_value.fault(Problem::Links { found: found.len() }))?;
+    let [first, second] = &joints[..] else {
+        return Err(joints_value.fault(Problem::Joints { found: joints.len(), links: lengths.len() }));
+    };
+    let joints = [joint(first, units)?, joint(second, units)?];
+    let half_width = match map.optional("half_width") {
+        Some(value) => match value.length(units)? {
+            half_width if half_width >= 0.0 => half_width,
+            _ => return Err(value.out_of_range("0 or more")),
+        },
+        None => 0.0,
+    };
+    let base = match map.optional("base") {
+        Some(value) => value.point(units)?,
+        None => Point::new(0.0, 0.0),
+    };
+    TwoLinkArm::new(base, lengths, half_width, joints).map_err(|error| value.fault(error.into()))
+}
+
+fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
+    let map = value.map(&keys::JOINT)?;
+    let limits = match (map.optional("continuous"), map.optional("min"), map.optional("max")) {
+        (Some(continuous), None, None) => {
+            continuous.word(&["true"])?;
+            JointLimits::Continuous
+        }
+        (Some(_), ..) => {
+            let (found, allowed) = ("continuous beside min or max".to_owned(), "one or the other".to_owned());
+            return Err(value.fault(Problem::Shape { found, allowed }));
+        }
+        (None, Some(min), Some(max)) => stops(value, &min, &max, units)?,
+        (None, Some(_), None) => return Err(value.fault(Problem::MissingKey { key: "max" })),
+        (None, None, Some(_)) => return Err(value.fault(Problem::MissingKey { key: "min" })),
+        (None, None, None) => {
+            return Err(value.fault(Problem::MissingKey { key: "continuous: true, or min and max" }));
+        }
+    };
+    let motion = MotionLimits {
+        velocity: rate(&map, "velocity", units)?,
+        acceleration: rate(&map, "acceleration", units)?,
+        jerk: rate(&map, "jerk", units)?,
+    };
+    Ok(Joint { limits, motion })
+}
+
+fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
+    let (low, high) = (min.number()?, max.number()?);
+    if low > high {
+        return Err(joint.fault(Problem::LimitsReversed { min: low, max: high }));
+    }
+    JointLimits::range(units.angle(low), units.angle(high))
+        .map_err(|_| joint.out_of_range("stops within a thousand turns of 0"))
+}
+
+fn rate(map: &Map<'_>, key: &str, units: Units) -> Result<Option<f64>, Fault> {
+    map.optional(key)
+        .map(|value| match units.angle(value.number()?) {
+            limit if limit > 0.0 => Ok(limit),
+            _ => Err(value.out_of_range("greater than 0")),
+        })
+        .transpose()
+}

@@ -1,0 +1,168 @@
+use std::fmt;
+
+use thiserror::Error;
+
+use super::Location;
+use crate::arm::ArmError;
+use crate::geometry::{CircleError, PolygonError};
+use crate::grid::GridError;
+use crate::scene::SceneProblem;
+
+/// Why a text is no scene: what is wrong, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneError {
+    /// What the text is called.
+    pub file: String,
+    /// Where; `None` when it is about the text as a whole.
+    pub location: Option<Location>,
+    /// The path to the part, such as `arm.joints[1].min`; empty for the whole.
+    pub key: String,
+    /// What is wrong.
+    pub problem: Problem,
+}
+
+impl std::error::Error for SceneError {}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file)?;
+        if let Some(Location { line, column }) = self.location {
+            write!(f, ":{line}:{column}")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, ": {}", self.key)?;
+        }
+        write!(f, ": {}", self.problem)
+    }
+}
+
+/// What is wrong with a part of a scene file.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Problem {
+    /// No YAML.
+    #[error("not YAML: {message}")]
+    Syntax {
+        /// In the parser's words.
+        message: String,
+    },
+    /// Nothing there.
+    #[error("the file is empty")]
+    Empty,
+    /// A second document begins.
+    #[error("a second document begins; a scene file has one")]
+    SecondDocument,
+    /// More text than is read.
+    #[error("{bytes} bytes; a scene file has at most {most}")]
+    TooLarge {
+        /// How much there is.
+        bytes: usize,
+        /// How much is allowed.
+        most: usize,
+    },
+    /// More values than are read, or lists in lists in lists.
+    #[error("more than {most} {what}")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// How many are allowed.
+        most: usize,
+    },
+    /// An anchor, an alias or a tag.
+    #[error("anchors, aliases and tags are not read; write the value out")]
+    NotPlain,
+    /// A key of a mapping that is no text.
+    #[error("a key is {found}; keys are plain text")]
+    KeyShape {
+        /// What it is.
+        found: &'static str,
+    },
+    /// A key comes twice.
+    #[error("the key was given before, in line {}", first.line)]
+    DuplicateKey {
+        /// Where it came first.
+        first: Location,
+    },
+    /// A key that the format does not have.
+    #[error("no such key; known here: {}{}", known.join(", "), in_words(*suggestion))]
+    UnknownKey {
+        /// Those it has.
+        known: Vec<&'static str>,
+        /// The one that was meant, probably.
+        suggestion: Option<&'static str>,
+    },
+    /// A key that has to be there.
+    #[error("missing: {key}")]
+    MissingKey {
+        /// Which.
+        key: &'static str,
+    },
+    /// Another kind of value.
+    #[error("found {found}; allowed: {allowed}")]
+    Shape {
+        /// What it is.
+        found: String,
+        /// What it has to be.
+        allowed: String,
+    },
+    /// Infinite, not a number, or beyond what a number can hold.
+    #[error("found {found}; numbers must be finite")]
+    NotFinite {
+        /// What is written.
+        found: String,
+    },
+    /// A number that is too small or too large.
+    #[error("found {found}; allowed: {allowed}")]
+    OutOfRange {
+        /// What is written.
+        found: String,
+        /// What it has to be.
+        allowed: &'static str,
+    },
+    /// The lower stop is above the upper one, in the file's unit.
+    #[error("min {min} is above max {max}")]
+    LimitsReversed {
+        /// Lower stop.
+        min: f64,
+        /// Upper stop.
+        max: f64,
+    },
+    /// The arm has as many links as this version cannot plan for.
+    #[error("{found} given; this version plans arms of 2 links")]
+    Links {
+        /// How many.
+        found: usize,
+    },
+    /// Not one joint per link.
+    #[error("{found} given for {links} links; every link has one joint")]
+    Joints {
+        /// How many joints.
+        found: usize,
+        /// How many links.
+        links: usize,
+    },
+    /// Neither one shape nor the other, or both.
+    #[error("an obstacle is either a circle or a polygon; found {found}")]
+    OneShape {
+        /// Which are there.
+        found: &'static str,
+    },
+    /// The measures of the arm.
+    #[error(transparent)]
+    Arm(#[from] ArmError),
+    /// The corners of a polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonError),
+    /// A circle.
+    #[error(transparent)]
+    Circle(#[from] CircleError),
+    /// The grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// The parts do not make a scene.
+    #[error(transparent)]
+    Scene(#[from] SceneProblem),
+}
+
+fn in_words(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |key| format!("; did you mean {key}?"))
+}

@@ -1,0 +1,102 @@
+//! Scene files: YAML with the units stated.
+//!
+//! The text is read from the parser's events into a small tree of marked nodes, under budgets, instead of through
+//! serde: so every complaint, also one about meaning, names line, column and key, what was found and what is allowed.
+
+mod arm;
+mod error;
+mod grid;
+mod keys;
+mod node;
+mod obstacles;
+mod tasks;
+mod tree;
+mod units;
+mod value;
+
+use std::collections::BTreeMap;
+
+pub use error::{Problem, SceneError};
+
+use super::Scene;
+use units::Units;
+use value::{Fault, Value};
+
+/// The version of the format that is read.
+const VERSION: &str = "1";
+
+/// A place in a text; both count from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Location {
+    /// Line.
+    pub line: usize,
+    /// Column, in characters.
+    pub column: usize,
+}
+
+/// Where in a file its tasks say where they begin and end.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Locations {
+    ends: BTreeMap<String, [Location; 2]>,
+}
+
+impl Locations {
+    /// Of the start of the task called `task`.
+    pub fn start(&self, task: &str) -> Option<Location> {
+        self.ends.get(task).map(|ends| ends[0])
+    }
+
+    /// Of the goal of the task called `task`.
+    pub fn goal(&self, task: &str) -> Option<Location> {
+        self.ends.get(task).map(|ends| ends[1])
+    }
+}
+
+/// What a scene file says, and where it says it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneFile {
+    /// The scene.
+    pub scene: Scene,
+    /// Where its tasks are.
+    pub locations: Locations,
+}
+
+/// Reads a scene from `text`; errors call it `file`.
+///
+/// # Errors
+/// [`SceneError`] for the first thing that is wrong, with its place.
+///
+/// # Example
+/// ```
+/// let text = "
+/// elbowroom: 1
+/// units: {length: mm, angle: deg}
+/// arm: {links: [400, 250], joints: [{min: -140, max: 140}, {min: -150, max: 150}]}
+/// grid: {x: [-700, 700], y: [-700, 700], step: 10}
+/// ";
+/// let file = elbowroom::scene::parse(text, "cell.yaml")?;
+/// assert_eq!(file.scene.arm.lengths(), [0.4, 0.25]);
+/// # Ok::<(), elbowroom::scene::SceneError>(())
+/// ```
+pub fn parse(text: &str, file: &str) -> Result<SceneFile, SceneError> {
+    let root = tree::tree(text).map_err(|fault| fault.in_file(file))?;
+    scene(&Value::root(&root)).map_err(|fault| fault.in_file(file))
+}
+
+fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
+    let map = root.map(&keys::ROOT)?;
+    map.required("elbowroom")?.word(&[VERSION])?;
+    let units = Units::read(&map.required("units")?)?;
+    let arm = arm::read(&map.required("arm")?, units)?;
+    let grid = grid::read(&map.required("grid")?, units)?;
+    let obstacles = match map.optional("obstacles") {
+        Some(value) => obstacles::read(&value, units)?,
+        None => Vec::new(),
+    };
+    let (tasks, ends) = match map.optional("tasks") {
+        Some(value) => tasks::read(&value, units)?,
+        None => Default::default(),
+    };
+    let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;
+    Ok(SceneFile { scene, locations: Locations { ends } })
+}

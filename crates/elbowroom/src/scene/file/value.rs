@@ -1,0 +1,201 @@
+use super::Location;
+use super::error::{Problem, SceneError};
+use super::keys::Keys;
+use super::node::{Entry, Kind, Node};
+use super::units::Units;
+
+/// Greatest length or coordinate (m): beyond it the last digits of a position are no longer nanometres.
+const GREATEST_LENGTH: f64 = 1e6;
+
+/// A problem with its place, before the file's name is known.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub(super) at: Option<Location>,
+    pub(super) key: String,
+    pub(super) problem: Problem,
+}
+
+impl Fault {
+    pub(super) fn in_file(self, file: &str) -> SceneError {
+        SceneError { file: file.to_owned(), location: self.at, key: self.key, problem: self.problem }
+    }
+}
+
+/// A node and the path of keys to it.
+pub(super) struct Value<'a> {
+    node: &'a Node,
+    key: String,
+}
+
+/// A mapping whose keys are known to be sound.
+pub(super) struct Map<'a> {
+    value: &'a Value<'a>,
+    entries: &'a [Entry],
+}
+
+impl<'a> Value<'a> {
+    pub(super) fn root(node: &'a Node) -> Self {
+        Self { node, key: String::new() }
+    }
+
+    pub(super) fn at(&self) -> Location {
+        self.node.at
+    }
+
+    pub(super) fn fault(&self, problem: Problem) -> Fault {
+        Fault { at: Some(self.node.at), key: self.key.clone(), problem }
+    }
+
+    fn shape(&self, allowed: impl Into<String>) -> Fault {
+        self.fault(Problem::Shape { found: self.node.in_words(), allowed: allowed.into() })
+    }
+
+    pub(super) fn out_of_range(&self, allowed: &'static str) -> Fault {
+        self.fault(Problem::OutOfRange { found: self.node.in_words(), allowed })
+    }
+
+    fn child(&self, name: &str) -> String {
+        if self.key.is_empty() { name.to_owned() } else { format!("{}.{name}", self.key) }
+    }
+
+    /// The mapping, with no keys but those of `keys`, and all it needs.
+    pub(super) fn map(&'a self, keys: &Keys) -> Result<Map<'a>, Fault> {
+        let entries = self.entries(|| format!("a mapping with {}", list(keys.known())))?;
+        for entry in entries {
+            if !keys.known().any(|known| known == entry.key) {
+                let suggestion = nearest(&entry.key, keys.known());
+                let problem = Problem::UnknownKey { known: keys.known().collect(), suggestion };
+                return Err(Fault { at: Some(entry.key_at), key: self.child(&entry.key), problem });
+            }
+        }
+        match keys.required.iter().find(|key| entries.iter().all(|entry| entry.key != **key)) {
+            Some(key) => Err(self.fault(Problem::MissingKey { key })),
+            None => Ok(Map { value: self, entries }),
+        }
+    }
+
+    /// The mapping with names of the user's choice.
+    pub(super) fn named(&'a self) -> Result<Vec<(&'a str, Value<'a>)>, Fault> {
+        let entries = self.entries(|| "a mapping of names".to_owned())?;
+        let value = |entry: &'a Entry| Value { node: &entry.value, key: self.child(&entry.key) };
+        Ok(entries.iter().map(|entry| (entry.key.as_str(), value(entry))).collect())
+    }
+
+    fn entries(&self, allowed: impl FnOnce() -> String) -> Result<&'a [Entry], Fault> {
+        match &self.node.kind {
+            Kind::Map(entries) => Ok(entries),
+            _ => Err(self.shape(allowed())),
+        }
+    }
+
+    pub(super) fn is_map(&self) -> bool {
+        matches!(self.node.kind, Kind::Map(_))
+    }
+
+    /// The list, each value with its place.
+    pub(super) fn list(&self, allowed: &str) -> Result<Vec<Value<'a>>, Fault> {
+        let Kind::List(nodes) = &self.node.kind else { return Err(self.shape(allowed)) };
+        let value = |(i, node): (usize, &'a Node)| Value { node, key: format!("{}[{i}]", self.key) };
+        Ok(nodes.iter().enumerate().map(value).collect())
+    }
+
+    /// The list, if it has two values.
+    pub(super) fn pair(&self, allowed: &str) -> Result<[Value<'a>; 2], Fault> {
+        <[Value<'a>; 2]>::try_from(self.list(allowed)?).map_err(|_| self.shape(allowed))
+    }
+
+    /// A plain word out of a few.
+    pub(super) fn word(&self, allowed: &[&'static str]) -> Result<&'static str, Fault> {
+        let found = match &self.node.kind {
+            Kind::Scalar { text, quoted: false } => allowed.iter().find(|word| *word == text),
+            _ => None,
+        };
+        found.copied().ok_or_else(|| self.shape(allowed.join(", ")))
+    }
+
+    /// Text that is not empty.
+    pub(super) fn name(&self) -> Result<String, Fault> {
+        match &self.node.kind {
+            Kind::Scalar { text, .. } if !text.is_empty() => Ok(text.clone()),
+            _ => Err(self.shape("a name")),
+        }
+    }
+
+    /// A finite number, in whatever unit.
+    pub(super) fn number(&self) -> Result<f64, Fault> {
+        let text = match &self.node.kind {
+            Kind::Scalar { text, quoted: false } => text,
+            _ => return Err(self.shape("a number")),
+        };
+        let not_finite = || self.fault(Problem::NotFinite { found: self.node.in_words() });
+        if matches!(
+            text.trim_start_matches(['+', '-']).to_ascii_lowercase().as_str(),
+            ".inf" | ".nan" | "inf" | "nan"
+        ) {
+            return Err(not_finite());
+        }
+        // Rust reads words such as "infinity" too.
+        let plain = text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c));
+        match text.parse::<f64>() {
+            Ok(number) if plain && number.is_finite() => Ok(number),
+            Ok(_) if plain => Err(not_finite()),
+            _ => Err(self.shape("a number")),
+        }
+    }
+
+    /// A coordinate or length (m).
+    pub(super) fn length(&self, units: Units) -> Result<f64, Fault> {
+        let length = units.length(self.number()?);
+        if length.abs() > GREATEST_LENGTH {
+            return Err(self.out_of_range("at most 1e6 m in size"));
+        }
+        Ok(length)
+    }
+
+    /// Two coordinates (m).
+    pub(super) fn point(&self, units: Units) -> Result<crate::geometry::Point, Fault> {
+        let [x, y] = self.pair("[x, y]")?;
+        Ok(crate::geometry::Point::new(x.length(units)?, y.length(units)?))
+    }
+}
+
+impl<'a> Map<'a> {
+    pub(super) fn optional(&self, key: &str) -> Option<Value<'a>> {
+        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        Some(Value { node: &entry.value, key: self.value.child(key) })
+    }
+
+    pub(super) fn required(&self, key: &'static str) -> Result<Value<'a>, Fault> {
+        self.optional(key).ok_or_else(|| self.value.fault(Problem::MissingKey { key }))
+    }
+}
+
+fn list(keys: impl Iterator<Item = &'static str>) -> String {
+    keys.collect::<Vec<_>>().join(", ")
+}
+
+/// The known key that `key` is a slip of the pen away from.
+fn nearest(key: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+    const SLIP: usize = 2;
+    known
+        .map(|candidate| (edits(key, candidate), candidate))
+        .filter(|&(edits, candidate)| edits <= SLIP && edits < candidate.len())
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+/// How many letters have to be put in, taken out or changed (Levenshtein's distance); large for long words.
+fn edits(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().take(64).collect(), b.chars().collect());
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let change = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = change.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

@@ -1,0 +1,83 @@
+use std::collections::HashSet;
+
+use thiserror::Error;
+
+use super::{Place, Scene};
+
+/// Most obstacles of a scene: a map numbers them in 16 bits.
+const MOST_OBSTACLES: usize = 1 << 16;
+
+/// Most tasks of a scene.
+const MOST_TASKS: usize = 1000;
+
+/// Greatest coordinate of a task's tip (m).
+const GREATEST_COORDINATE: f64 = 1e6;
+
+/// Greatest angle of a task's joint (rad): beyond it angles lose the digits the checks rely on.
+const GREATEST_ANGLE: f64 = 1e4;
+
+/// Why parts make no scene.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SceneProblem {
+    /// More obstacles than can be numbered.
+    #[error("{found} obstacles, at most {MOST_OBSTACLES} are allowed")]
+    Obstacles {
+        /// How many.
+        found: usize,
+    },
+    /// More tasks than anyone plans.
+    #[error("{found} tasks, at most {MOST_TASKS} are allowed")]
+    Tasks {
+        /// How many.
+        found: usize,
+    },
+    /// Two obstacles with one name.
+    #[error("two obstacles are called '{name}'")]
+    ObstacleName {
+        /// The name.
+        name: String,
+    },
+    /// Two tasks with one name, or a task without.
+    #[error("two tasks are called '{name}', or one has no name")]
+    TaskName {
+        /// The name.
+        name: String,
+    },
+    /// A start or goal that is no place.
+    #[error(
+        "task '{task}': start and goal must be finite, tips within {GREATEST_COORDINATE:e} m, angles within {GREATEST_ANGLE:e} rad"
+    )]
+    Place {
+        /// Whose.
+        task: String,
+    },
+}
+
+pub(super) fn first(scene: &Scene) -> Option<SceneProblem> {
+    if scene.obstacles.len() > MOST_OBSTACLES {
+        return Some(SceneProblem::Obstacles { found: scene.obstacles.len() });
+    }
+    if scene.tasks.len() > MOST_TASKS {
+        return Some(SceneProblem::Tasks { found: scene.tasks.len() });
+    }
+    let mut names = HashSet::new();
+    let mut named = scene.obstacles.iter().filter_map(|obstacle| obstacle.name.as_ref());
+    if let Some(name) = named.find(|name| !names.insert(name.as_str())) {
+        return Some(SceneProblem::ObstacleName { name: name.clone() });
+    }
+    let mut names = HashSet::new();
+    if let Some(task) =
+        scene.tasks.iter().find(|task| task.name.is_empty() || !names.insert(task.name.as_str()))
+    {
+        return Some(SceneProblem::TaskName { name: task.name.clone() });
+    }
+    let task = scene.tasks.iter().find(|task| !(is_place(&task.start) && is_place(&task.goal)))?;
+    Some(SceneProblem::Place { task: task.name.clone() })
+}
+
+fn is_place(place: &Place) -> bool {
+    match place {
+        Place::Tip(tip) => tip.x.abs() <= GREATEST_COORDINATE && tip.y.abs() <= GREATEST_COORDINATE,
+        Place::Configuration(q) => q.0.iter().all(|angle| angle.abs() <= GREATEST_ANGLE),
+    }
+}

@@ -1,0 +1,236 @@
+//! Posture-true planning: what is handed out is safe by a judge of its own, starts and ends where it was asked to, and
+//! never changes posture but in line.
+
+#![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
+
+mod judge;
+mod worlds;
+
+use std::f64::consts::PI;
+
+use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+use elbowroom::geometry::{Circle, Point};
+use elbowroom::grid::Grid;
+use elbowroom::planners::{
+    ASSUMED_LIMITS, Method, Objective, Pace, Plan, PlanError, PlanSettings, Unwatched, plan,
+};
+use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
+use elbowroom::swarm::GuidedSwarmSettings;
+
+const CIRCLES: [[f64; 2]; 5] = [[0.22, 0.22], [-0.08, 0.4], [-0.38, 0.18], [-0.2, -0.42], [0.38, -0.14]];
+
+fn tip(x: f64, y: f64) -> Place {
+    Place::Tip(Point::new(x, y))
+}
+
+fn task(start: Place, goal: Place, posture: TaskPosture) -> Task {
+    Task { name: "task".to_owned(), start, goal, posture }
+}
+
+/// The paper's arm among our five circles.
+fn standin(first: JointLimits, motion: MotionLimits) -> Scene {
+    let second = JointLimits::range(-150f64.to_radians(), 150f64.to_radians()).unwrap();
+    let joints = [first, second].map(|limits| Joint { limits, motion });
+    let circle = |[x, y]: [f64; 2]| {
+        let shape = Shape::Circle(Circle { center: Point::new(x, y), radius: 0.05 });
+        Obstacle { name: None, shape }
+    };
+    Scene {
+        arm: TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, joints).unwrap(),
+        grid: Grid::new([-0.5, 0.5], [-0.5, 0.5], 0.01).unwrap(),
+        obstacles: CIRCLES.map(circle).to_vec(),
+        tasks: vec![
+            task(tip(0.4, 0.1), tip(-0.45, -0.15), TaskPosture::Any),
+            task(tip(0.3, -0.3), tip(0.15, 0.45), TaskPosture::Any),
+        ],
+    }
+}
+
+fn with_stops() -> JointLimits {
+    JointLimits::range(0.0, 2.0 * PI).unwrap()
+}
+
+fn run(scene: &Scene, settings: &PlanSettings) -> Result<Plan, PlanError> {
+    plan(scene, &scene.tasks[0], settings, &Unwatched)
+}
+
+fn dstar() -> PlanSettings {
+    PlanSettings { method: Method::Dstar, ..PlanSettings::default() }
+}
+
+/// Whether the tip or the joints are where `place` says at `q`.
+fn is_at(scene: &Scene, place: &Place, q: [f64; 2]) -> bool {
+    match place {
+        Place::Tip(tip) => {
+            let [_, _, [x, y]] = judge::skeleton(scene, q);
+            (x - tip.x).hypot(y - tip.y) < 1e-9
+        }
+        Place::Configuration(asked) => (0..2).all(|j| {
+            // A continuous joint may have been counted on by whole turns.
+            let off = q[j] - asked.0[j];
+            let off = match scene.arm.joints()[j].limits {
+                JointLimits::Continuous => (off / 2.0).sin() * 2.0,
+                JointLimits::Range { .. } => off,
+            };
+            off.abs() < 1e-9
+        }),
+    }
+}
+
+/// All that is promised of a plan, looked at from outside.
+fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
+    let motion = plan.trajectory.motion();
+    assert!(plan.trajectory.verdict().is_safe());
+    assert_eq!(judge::fault(scene, motion, 200), None);
+    let (first, last) = (motion.at(motion.start()), motion.at(motion.end()));
+    assert!(is_at(scene, &task.start, first.position), "{:?} is not {:?}", first.position, task.start);
+    assert!(is_at(scene, &task.goal, last.position), "{:?} is not {:?}", last.position, task.goal);
+    for end in [first, last] {
+        assert!(end.velocity.iter().chain(&end.acceleration).all(|v| v.abs() < 1e-6));
+    }
+    let goal = Posture::of(&Configuration(last.position));
+    match task.posture {
+        TaskPosture::Up => assert_ne!(goal, Some(Posture::ElbowDown)),
+        TaskPosture::Down => assert_ne!(goal, Some(Posture::ElbowUp)),
+        TaskPosture::Keep => {
+            let bends: Vec<f64> = plan.joint_path.0.iter().map(|q| q.0[1].sin()).collect();
+            assert!(bends.iter().all(|b| *b >= -1e-9) || bends.iter().all(|b| *b <= 1e-9), "{bends:?}");
+        }
+        TaskPosture::Any => {}
+    }
+}
+
+#[test]
+fn motions_in_random_worlds_are_safe_by_another_judge() {
+    let (mut planned, mut not_found, mut refused) = (0, 0, 0);
+    for seed in 0..1_500 {
+        let Some(scene) = worlds::world(seed) else { continue };
+        let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
+        let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
+        let method = if seed % 2 == 0 { Method::Dstar } else { Method::DstarPso(swarm) };
+        match run(&scene, &PlanSettings { method, objective, seed, ..PlanSettings::default() }) {
+            Ok(plan) => {
+                planned += 1;
+                assert_true(&scene, &scene.tasks[0], &plan);
+            }
+            Err(PlanError::NotFound { .. }) => not_found += 1,
+            Err(PlanError::GoalPosture { .. } | PlanError::Start(_) | PlanError::Goal(_)) => refused += 1,
+            Err(other) => panic!("world {seed}: {other}"),
+        }
+    }
+    assert!(planned > 800 && not_found > 20, "{planned} planned, {not_found} not found, {refused} refused");
+}
+
+#[test]
+fn the_papers_tasks_are_planned_for_both_kinds_of_joint_1() {
+    for first in [JointLimits::Continuous, with_stops()] {
+        for index in 0..2 {
+            let mut scene = standin(first, MotionLimits::default());
+            scene.tasks.swap(0, index);
+            for settings in [dstar(), PlanSettings::default()] {
+                let plan = run(&scene, &settings).unwrap();
+                assert_true(&scene, &scene.tasks[0], &plan);
+                assert!((plan.cost - plan.trajectory.motion().tip_length(&scene.arm)).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_swarm_does_no_worse_than_dstar_by_what_it_was_asked_for() {
+    let scene = standin(JointLimits::Continuous, MotionLimits::default());
+    let shortest = run(&scene, &dstar()).unwrap();
+    for seed in 0..5 {
+        let drawn = run(&scene, &PlanSettings { seed, ..PlanSettings::default() }).unwrap();
+        assert!(drawn.path_cost <= shortest.path_cost * (1.0 + 1e-9));
+        assert!(drawn.paths_to_choose_from >= 1);
+    }
+}
+
+#[test]
+fn motion_limits_are_kept_and_missing_ones_are_named() {
+    let motion = MotionLimits { velocity: Some(2.0), acceleration: Some(8.0), jerk: None };
+    let scene = standin(JointLimits::Continuous, motion);
+    let plan = run(&scene, &dstar()).unwrap();
+    assert_true(&scene, &scene.tasks[0], &plan);
+    let assumed: Vec<_> = plan.assumed_limits.iter().map(|a| (a.joint, a.rate, a.value)).collect();
+    assert_eq!(assumed, [(1, "jerk", ASSUMED_LIMITS.jerk), (2, "jerk", ASSUMED_LIMITS.jerk)]);
+    let margins = plan.trajectory.verdict().motion_margins;
+    let used = margins.iter().flat_map(|m| [m.velocity.largest / 2.0, m.acceleration.largest / 8.0]);
+    let used = used.chain(margins.iter().map(|m| m.jerk.largest / ASSUMED_LIMITS.jerk)).fold(0.0, f64::max);
+    assert!((0.999..=1.0).contains(&used), "the fastest motion uses {used} of a limit");
+}
+
+#[test]
+fn a_duration_is_kept_or_refused() {
+    let motion = MotionLimits { velocity: Some(2.0), acceleration: Some(8.0), jerk: Some(80.0) };
+    let scene = standin(JointLimits::Continuous, motion);
+    let at = |seconds: f64| run(&scene, &PlanSettings { pace: Pace::Duration(seconds), ..dstar() });
+    let slow = at(30.0).unwrap();
+    assert!((slow.trajectory.motion().duration() - 30.0).abs() < 1e-9);
+    assert_true(&scene, &scene.tasks[0], &slow);
+    let Err(PlanError::TooFast { duration, fastest }) = at(0.1) else { panic!("0.1 s is too fast") };
+    assert_eq!(duration, 0.1);
+    assert!(at(fastest * 1.0001).is_ok());
+    for seconds in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(at(seconds), Err(PlanError::Duration { .. })));
+    }
+    let unlimited = standin(JointLimits::Continuous, MotionLimits::default());
+    let pace = Pace::Duration(0.1);
+    assert!(run(&unlimited, &PlanSettings { pace, ..dstar() }).is_ok(), "no stated limit forbids it");
+}
+
+#[test]
+fn postures_asked_for_are_kept_to() {
+    for posture in [TaskPosture::Up, TaskPosture::Down, TaskPosture::Keep] {
+        for first in [JointLimits::Continuous, with_stops()] {
+            let mut scene = standin(first, MotionLimits::default());
+            scene.tasks[0].posture = posture;
+            let plan = run(&scene, &dstar()).unwrap();
+            assert_true(&scene, &scene.tasks[0], &plan);
+        }
+    }
+    // A circle where the elbow-down arm has its elbow: only elbow-up is left.
+    let mut scene = standin(JointLimits::Continuous, MotionLimits::default());
+    let goal = Point::new(-0.45, -0.15);
+    let q = scene.arm.inverse(goal, Posture::ElbowDown).unwrap()[0];
+    let shape = Shape::Circle(Circle { center: scene.arm.elbow(&q), radius: 0.01 });
+    scene.obstacles.push(Obstacle { name: None, shape });
+    scene.tasks[0].posture = TaskPosture::Down;
+    let refused = run(&scene, &dstar()).unwrap_err();
+    assert_eq!(refused, PlanError::GoalPosture { wanted: Posture::ElbowDown });
+}
+
+#[test]
+fn a_flip_passes_through_full_stretch() {
+    let mut scene = standin(JointLimits::Continuous, MotionLimits::default());
+    scene.obstacles.clear();
+    let (from, to) = (Configuration([0.3, 1.2]), Configuration([1.5, -1.2]));
+    scene.tasks = vec![task(Place::Configuration(from), Place::Configuration(to), TaskPosture::Any)];
+    let plan = run(&scene, &dstar()).unwrap();
+    assert_true(&scene, &scene.tasks[0], &plan);
+    let changes = &plan.trajectory.verdict().posture_changes;
+    assert_eq!(changes.len(), 1);
+    let there = plan.trajectory.motion().at(changes[0]);
+    assert!(there.position[1].abs() < 1e-6, "{there:?}");
+    scene.tasks[0].posture = TaskPosture::Keep;
+    assert!(matches!(run(&scene, &dstar()), Err(PlanError::NotFound { .. })));
+}
+
+#[test]
+fn an_arm_that_is_there_already_stands_still() {
+    let mut scene = standin(JointLimits::Continuous, MotionLimits::default());
+    scene.tasks[0].goal = scene.tasks[0].start;
+    let plan = run(&scene, &PlanSettings::default()).unwrap();
+    assert_eq!((plan.cost, plan.trajectory.motion().duration()), (0.0, 0.0));
+    let pace = Pace::Duration(10.0);
+    let waiting = run(&scene, &PlanSettings { pace, ..dstar() }).unwrap();
+    assert_eq!(waiting.cost, 0.0);
+}
+
+#[test]
+fn same_seed_same_plan() {
+    let scene = standin(JointLimits::Continuous, MotionLimits::default());
+    let settings = PlanSettings { objective: Objective::Joint, seed: 5, ..PlanSettings::default() };
+    assert_eq!(run(&scene, &settings).unwrap(), run(&scene, &settings).unwrap());
+}

@@ -1,0 +1,310 @@
+//! Scene files: what they say, and what is said of those that are wrong.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use elbowroom::arm::{Configuration, JointLimits};
+use elbowroom::geometry::Point;
+use elbowroom::scene::{Location, Place, Problem, Shape, TaskPosture, parse};
+use rand_chacha::ChaCha8Rng;
+use rand_core::{Rng, SeedableRng};
+
+const SOUND: &str = "\
+elbowroom: 1
+units: {length: cm, angle: deg}
+arm:
+  links: [25, 20]
+  joints:
+    - {continuous: true, velocity: 90}
+    - {min: -150, max: 150}
+  half_width: 2
+  base: [1, -2]
+grid: {x: [-50, 50], y: [-40, 40], step: 1}
+obstacles:
+  - circle: {center: [22, 22], radius: 5}
+    name: post
+  - polygon: [[0, 30], [5, 30], [0, 35]]
+tasks:
+  first: {start: [40, 10], goal: {q: [90, -30]}, posture: keep}
+";
+
+fn message(text: &str) -> String {
+    parse(text, "s.yaml").map(|_| "sound".to_owned()).unwrap_or_else(|error| error.to_string())
+}
+
+#[test]
+fn every_part_is_read_in_metres_and_radians() {
+    let file = parse(SOUND, "s.yaml").unwrap();
+    let scene = &file.scene;
+    assert_eq!(scene.arm.lengths(), [0.25, 0.2]);
+    assert_eq!(scene.arm.half_width(), 0.02);
+    assert_eq!(scene.arm.base(), Point::new(0.01, -0.02));
+    assert_eq!(scene.arm.joints()[0].limits, JointLimits::Continuous);
+    assert_eq!(scene.arm.joints()[0].motion.velocity, Some(90f64.to_radians()));
+    let bend = 150f64.to_radians();
+    assert_eq!(scene.arm.joints()[1].limits, JointLimits::Range { min: -bend, max: bend });
+    assert_eq!((scene.grid.columns(), scene.grid.rows()), (101, 81));
+    assert_eq!(scene.obstacles[0].name.as_deref(), Some("post"));
+    assert!(matches!(&scene.obstacles[0].shape, Shape::Circle(c) if c.radius == 0.05));
+    assert!(
+        matches!(&scene.obstacles[1].shape, Shape::Polygon(p) if p.vertices()[1] == Point::new(0.05, 0.3))
+    );
+    let task = scene.task("first").unwrap();
+    assert_eq!(task.start, Place::Tip(Point::new(0.4, 0.1)));
+    assert_eq!(task.goal, Place::Configuration(Configuration([90f64.to_radians(), -30f64.to_radians()])));
+    assert_eq!(task.posture, TaskPosture::Keep);
+    assert_eq!(file.locations.start("first"), Some(Location { line: 16, column: 18 }));
+    assert_eq!(file.locations.goal("first"), Some(Location { line: 16, column: 34 }));
+    assert_eq!(file.locations.goal("second"), None);
+}
+
+#[test]
+fn all_scenes_of_the_repository_are_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/elbowroom/scenes");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "yaml") {
+            let file = parse(&std::fs::read_to_string(&path).unwrap(), "s.yaml");
+            assert!(file.is_ok(), "{}: {}", path.display(), file.unwrap_err());
+            seen += 1;
+        }
+    }
+    assert!(seen >= 4);
+}
+
+#[test]
+fn windows_line_ends_and_a_byte_order_mark_change_nothing() {
+    let plain = parse(SOUND, "s.yaml").unwrap();
+    assert_eq!(parse(&SOUND.replace('\n', "\r\n"), "s.yaml").unwrap(), plain);
+    assert_eq!(parse(&format!("\u{feff}{SOUND}"), "s.yaml").unwrap().scene, plain.scene);
+}
+
+#[test]
+fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
+    let mut wrong = Vec::new();
+    for (old, new, expected) in [
+        ("elbowroom: 1", "elbowroom: 2", "s.yaml:1:12: elbowroom: found 2; allowed: 1"),
+        ("elbowroom: 1\n", "", "s.yaml:1:1: missing: elbowroom"),
+        (
+            "{length: cm, angle: deg}",
+            "{length: inch, angle: deg}",
+            "s.yaml:2:17: units.length: found inch; allowed: m, cm, mm",
+        ),
+        ("{length: cm, angle: deg}", "{length: cm}", "s.yaml:2:8: units: missing: angle"),
+        ("units: {length: cm, angle: deg}\n", "", "s.yaml:1:1: missing: units"),
+        (
+            "links:",
+            "lniks:",
+            "s.yaml:4:3: arm.lniks: no such key; known here: links, joints, half_width, base; did you mean links?",
+        ),
+        ("[25, 20]", "[25, 20, 15]", "s.yaml:4:10: arm.links: 3 given; this version plans arms of 2 links"),
+        ("[25, 20]", "[25]", "s.yaml:4:10: arm.links: 1 given; this version plans arms of 2 links"),
+        ("[25, 20]", "[25, 0]", "s.yaml:4:15: arm.links[1]: found 0; allowed: greater than 0"),
+        ("[25, 20]", "[25, -20]", "s.yaml:4:15: arm.links[1]: found -20; allowed: greater than 0"),
+        ("[25, 20]", "[25, .nan]", "s.yaml:4:15: arm.links[1]: found .nan; numbers must be finite"),
+        ("[25, 20]", "[25, -.Inf]", "s.yaml:4:15: arm.links[1]: found -.Inf; numbers must be finite"),
+        ("[25, 20]", "[25, 1e999]", "s.yaml:4:15: arm.links[1]: found 1e999; numbers must be finite"),
+        ("[25, 20]", "[25, 1e12]", "s.yaml:4:15: arm.links[1]: found 1e12; allowed: at most 1e6 m in size"),
+        ("[25, 20]", "[25, 1e-5]", "s.yaml:4:3: arm: link 2 is 0.0000001"),
+        ("[25, 20]", "[25, \"20\"]", "s.yaml:4:15: arm.links[1]: found the text \"20\"; allowed: a number"),
+        ("[25, 20]", "[25, 0x14]", "s.yaml:4:15: arm.links[1]: found 0x14; allowed: a number"),
+        ("[25, 20]", "[25, infinity]", "s.yaml:4:15: arm.links[1]: found infinity; allowed: a number"),
+        ("[25, 20]", "[25, ]", "s.yaml:4:10: arm.links: 1 given; this version plans arms of 2 links"),
+        ("[25, 20]", "long", "s.yaml:4:10: arm.links: found long; allowed: a list of link lengths"),
+        (
+            "    - {min: -150, max: 150}\n",
+            "",
+            "s.yaml:6:5: arm.joints: 1 given for 2 links; every link has one joint",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{min: 150, max: -150}",
+            "s.yaml:7:7: arm.joints[1]: min 150 is above max -150",
+        ),
+        ("{min: -150, max: 150}", "{min: -150}", "s.yaml:7:7: arm.joints[1]: missing: max"),
+        (
+            "{min: -150, max: 150}",
+            "{}",
+            "s.yaml:7:7: arm.joints[1]: missing: continuous: true, or min and max",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{continuous: false}",
+            "s.yaml:7:20: arm.joints[1].continuous: found false; allowed: true",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{continuous: true, max: 1}",
+            "s.yaml:7:7: arm.joints[1]: found continuous beside min or max; allowed: one or the other",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{min: -1e9, max: 150}",
+            "s.yaml:7:7: arm.joints[1]: found a mapping; allowed: stops within a thousand turns of 0",
+        ),
+        (
+            "velocity: 90",
+            "velocity: 0",
+            "s.yaml:6:36: arm.joints[0].velocity: found 0; allowed: greater than 0",
+        ),
+        ("half_width: 2", "half_width: -2", "s.yaml:8:15: arm.half_width: found -2; allowed: 0 or more"),
+        ("base: [1, -2]", "base: [1]", "s.yaml:9:9: arm.base: found a list of 1; allowed: [x, y]"),
+        ("step: 1", "step: 0", "s.yaml:10:7: grid: step is 0 m, it must be finite and greater than 0"),
+        (
+            "step: 1",
+            "step: 1e-9",
+            "s.yaml:10:7: grid: 100000000001 x 80000000001 points are more than the 33554432 allowed",
+        ),
+        (
+            "x: [-50, 50]",
+            "x: [50, -50]",
+            "s.yaml:10:7: grid: range x is 0.5 m to -0.5 m, it must be finite and must not end before it begins",
+        ),
+        (
+            "radius: 5",
+            "radius: 0",
+            "s.yaml:12:40: obstacles[0].circle.radius: found 0; allowed: greater than 0",
+        ),
+        (
+            "radius: 5",
+            "radius: 5, color: red",
+            "s.yaml:12:43: obstacles[0].circle.color: no such key; known here: center, radius",
+        ),
+        (
+            "name: post",
+            "name: post\n    polygon: [[0, 0], [1, 0], [0, 1]]",
+            "s.yaml:12:5: obstacles[0]: an obstacle is either a circle or a polygon; found both",
+        ),
+        (
+            "  - polygon: [[0, 30], [5, 30], [0, 35]]",
+            "  - name: nothing",
+            "s.yaml:14:5: obstacles[1]: an obstacle is either a circle or a polygon; found neither",
+        ),
+        (
+            "[[0, 30], [5, 30], [0, 35]]",
+            "[[0, 30], [5, 35], [5, 30], [0, 35]]",
+            "s.yaml:14:14: obstacles[1].polygon: edge 0 (from vertex 0) crosses or touches edge 2 (from vertex 2)",
+        ),
+        (
+            "[[0, 30], [5, 30], [0, 35]]",
+            "[[0, 30], [5, 30]]",
+            "s.yaml:14:14: obstacles[1].polygon: 2 vertices, 3 to 10000 are allowed",
+        ),
+        (
+            "  - polygon: [[0, 30], [5, 30], [0, 35]]",
+            "  - circle: {center: [0, 0], radius: 1}\n    name: post",
+            "s.yaml:1:1: two obstacles are called 'post'",
+        ),
+        (
+            "start: [40, 10]",
+            "start: [40, ten]",
+            "s.yaml:16:23: tasks.first.start[1]: found ten; allowed: a number",
+        ),
+        (
+            "start: [40, 10]",
+            "start: {p: [1, 2]}",
+            "s.yaml:16:19: tasks.first.start.p: no such key; known here: q",
+        ),
+        (
+            "posture: keep",
+            "posture: left",
+            "s.yaml:16:59: tasks.first.posture: found left; allowed: up, down, any, keep",
+        ),
+        (
+            "tasks:",
+            "task:",
+            "s.yaml:15:1: task: no such key; known here: elbowroom, units, arm, grid, obstacles, tasks; did you mean tasks?",
+        ),
+        (
+            "half_width: 2",
+            "half_width: 2\n  half_width: 3",
+            "s.yaml:9:3: half_width: the key was given before, in line 8",
+        ),
+        (
+            "[25, 20]",
+            "&a [25, 20]",
+            "s.yaml:4:10: anchors, aliases and tags are not read; write the value out",
+        ),
+        ("[25, 20]", "[25, 20", "s.yaml:5:9: not YAML: "),
+        ("name: post", "name: [", "s.yaml:14:"),
+    ] {
+        assert!(SOUND.contains(old), "{old}");
+        let found = message(&SOUND.replacen(old, new, 1));
+        assert!(found.lines().count() <= 3);
+        if !found.starts_with(expected) {
+            wrong.push(format!("{new}\nfound    {found}\nexpected {expected}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn files_that_are_no_scene_at_all_are_refused() {
+    for (text, expected) in [
+        ("", "s.yaml: the file is empty"),
+        ("# nothing\n", "s.yaml: the file is empty"),
+        ("42", "s.yaml:1:1: found 42; allowed: a mapping with elbowroom, units, arm, grid, obstacles, tasks"),
+        ("- 1\n- 2\n", "s.yaml:1:1: found a list of 2; allowed: a mapping"),
+        ("a: *b\n", "s.yaml:1:4: "),
+        ("? [1]\n: 2\n", "s.yaml:1:3: a key is a list; keys are plain text"),
+        ("\t", "s.yaml"),
+    ] {
+        let found = message(text);
+        assert!(found.starts_with(expected), "{text:?}\nfound    {found}\nexpected {expected}");
+    }
+    assert!(message(&format!("{SOUND}---\n{SOUND}")).contains("a second document begins"));
+}
+
+#[test]
+fn bombs_are_refused_before_they_go_off() {
+    let huge = format!("{SOUND}#{}", "x".repeat(4 << 20));
+    assert!(matches!(parse(&huge, "s").unwrap_err().problem, Problem::TooLarge { .. }));
+    let mut aliases = "a: &a [x, x, x, x, x, x, x, x, x]\n".to_owned();
+    for i in 1..30 {
+        writeln!(aliases, "b{i}: &b{i} [*a, *a, *a, *a, *a, *a, *a, *a]").unwrap();
+    }
+    assert_eq!(parse(&aliases, "s").unwrap_err().problem, Problem::NotPlain);
+    for deep in ["[".repeat(100_000), "{a: ".repeat(100_000), "- ".repeat(100_000)] {
+        assert!(parse(&deep, "s").is_err());
+    }
+    let many = format!("obstacles: [{}]", "1,".repeat(2_000_000));
+    assert!(matches!(parse(&many, "s").unwrap_err().problem, Problem::TooMany { .. }));
+}
+
+#[test]
+fn damaged_files_never_do_worse_than_be_refused() {
+    let mut rng = ChaCha8Rng::seed_from_u64(11);
+    let mut below = |count: usize| (rng.next_u64() % count as u64) as usize;
+    let pieces = [
+        "[", "]", "{", "}", ":", "-", "\n", " ", "&a", "*a", "!!t", "\"", "'", "#", ".nan", "1e400", "é",
+        "\0", "|", ">", "?", "%", "@",
+    ];
+    let mut refused = 0;
+    for _ in 0..20_000 {
+        let mut text: Vec<char> = SOUND.chars().collect();
+        for _ in 0..=below(4) {
+            if text.is_empty() {
+                break;
+            }
+            let at = below(text.len());
+            match below(4) {
+                0 => drop(text.remove(at)),
+                1 => text.splice(at..at, pieces[below(pieces.len())].chars()).for_each(drop),
+                2 => text.truncate(at.max(1)),
+                _ => {
+                    let to = (at + below(20)).min(text.len());
+                    let copy: Vec<char> = text[at..to].to_vec();
+                    let there = below(text.len());
+                    text.splice(there..there, copy).for_each(drop);
+                }
+            }
+        }
+        let text: String = text.into_iter().collect();
+        if let Err(error) = parse(&text, "s.yaml") {
+            refused += 1;
+            assert!(error.to_string().lines().count() <= 3, "{error}");
+        }
+    }
+    assert!(refused > 10_000, "{refused}");
+}
