@@ -57,8 +57,8 @@ pub fn verify(scene: &Scene, motion: &Motion<2>, settings: &VerifySettings) -> V
     verify_until(scene, motion, settings, &|| true)
 }
 
-/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going`, asked every few microseconds, says
-/// no.
+/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going` says no; asked for every piece, link
+/// and obstacle before the first configuration and again after every 64.
 pub fn verify_until(
     scene: &Scene,
     motion: &Motion<2>,
