@@ -2,7 +2,7 @@
 
 use elbowroom::arm::Configuration;
 use elbowroom::free_space::{NotFree, Reason};
-use elbowroom::planners::PaperError;
+use elbowroom::planners::{PaperError, PlanError};
 use elbowroom::scene::{Place, SceneError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -142,4 +142,26 @@ pub(crate) fn scene_file(py: Python<'_>, error: &SceneError) -> PyErr {
         fields.set_item("line", error.location.map(|at| at.line))?;
         fields.set_item("column", error.location.map(|at| at.column))
     })
+}
+
+/// Why there is no plan.
+pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PlanError) -> PyErr {
+    let message = error.to_string();
+    match error {
+        PlanError::Swarm(_) => setting(py, "swarm", &message),
+        PlanError::Duration { .. } | PlanError::TooFast { .. } => setting(py, "duration", &message),
+        PlanError::Start(refused) => not_free(py, task, "start", refused),
+        PlanError::Goal(refused) => not_free(py, task, "goal", refused),
+        PlanError::GoalPosture { .. } => setting(py, "posture", &message),
+        PlanError::NotFound { step } => {
+            exception(py, "NotFound", &message, |fields| fields.set_item("step", step))
+        }
+        PlanError::Stopped => timed_out(py, timeout),
+        PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
+    }
+}
+
+/// Samples or a file that are no trajectory.
+pub(crate) fn trajectory(py: Python<'_>, message: &str) -> PyErr {
+    exception(py, "TrajectoryError", message, |_| Ok(()))
 }

@@ -1,12 +1,15 @@
 //! Border between the core and Python: conversion and error mapping, nothing else. The GIL is released while the
 //! core works, Ctrl-C stops it, and no panic gets across as one.
 
+mod check;
 mod errors;
 mod free_space;
 mod motion;
 mod paper;
+mod plan;
 mod scene;
 mod scene_parts;
+mod verdict;
 mod watch;
 
 use pyo3::prelude::*;
@@ -14,11 +17,15 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    use super::check::{interpolated, verify};
+    #[pymodule_export]
     use super::free_space::{FreeSpace, free_space};
     #[pymodule_export]
     use super::motion::Motion;
     #[pymodule_export]
     use super::paper::{PaperPlan, plan_as_in_paper};
+    #[pymodule_export]
+    use super::plan::{Plan, plan};
     #[pymodule_export]
     use super::scene::{Scene, SceneFile};
 

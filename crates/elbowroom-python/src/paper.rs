@@ -126,14 +126,14 @@ pub(crate) fn plan_as_in_paper(
     Ok(PaperPlan { plan, timings })
 }
 
-fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<f64>> {
+pub(crate) fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<f64>> {
     points(py, path.0.iter().map(|p| [p.x, p.y]))
 }
 
-fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
+pub(crate) fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
     points(py, path.0.iter().map(|q| q.0))
 }
 
-fn postures(path: &JointPath) -> Vec<Option<&'static str>> {
+pub(crate) fn postures(path: &JointPath) -> Vec<Option<&'static str>> {
     path.0.iter().map(|q| Posture::of(q).map(Posture::name)).collect()
 }

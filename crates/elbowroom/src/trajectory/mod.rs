@@ -1,5 +1,6 @@
 //! Motion over time: polynomial pieces per joint.
 
+mod interpolate;
 mod length;
 mod motion;
 mod peak;
@@ -8,6 +9,7 @@ mod spline;
 mod timing;
 mod via;
 
+pub use interpolate::{Curve, MAX_ROWS, Samples, SamplesError, interpolate};
 pub use motion::{Motion, MotionError};
 pub use piece::{Piece, State};
 pub use spline::{Via, durations_by_length, quintic_through, vias_at};

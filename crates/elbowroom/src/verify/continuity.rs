@@ -1,6 +1,7 @@
 //! Whether pieces join.
 
 use super::verdict::{Quantity, Violation};
+use crate::arm::Joint;
 use crate::trajectory::Piece;
 
 /// A jump up to this share of what the polynomials' terms amount to is rounding, for all three quantities;
@@ -11,7 +12,15 @@ const KINDS: [Quantity; 3] = [Quantity::Position, Quantity::Velocity, Quantity::
 
 /// Reports the greatest jump of each kind per joint, and gives the greatest jump of position that passed as
 /// rounding, per joint (rad).
-pub(super) fn check(pieces: &[Piece<2>], violations: &mut Vec<Violation>) -> [f64; 2] {
+///
+/// Up to `continuous` nothing may jump. Beyond it a jump is held against a joint whose next rate is limited: to jump
+/// in velocity takes more acceleration than any limit allows.
+pub(super) fn check(
+    pieces: &[Piece<2>],
+    joints: &[Joint; 2],
+    continuous: Quantity,
+    violations: &mut Vec<Violation>,
+) -> [f64; 2] {
     let mut passed = [0.0f64; 2];
     let mut worst: [[Option<(f64, f64)>; 3]; 2] = [[None; 3]; 2];
     for pair in pieces.windows(2) {
@@ -39,7 +48,15 @@ pub(super) fn check(pieces: &[Piece<2>], violations: &mut Vec<Violation>) -> [f6
     }
     for (joint, worst) in worst.iter().enumerate() {
         for (what, worst) in KINDS.into_iter().zip(worst) {
-            if let Some((jump, time)) = *worst {
+            let motion = joints[joint].motion;
+            let limited = match what {
+                Quantity::Position => true,
+                Quantity::Velocity => motion.acceleration.is_some(),
+                Quantity::Acceleration => motion.jerk.is_some(),
+            };
+            if let Some((jump, time)) = *worst
+                && (what <= continuous || limited)
+            {
                 violations.push(Violation::Discontinuity { joint: joint + 1, what, time, jump });
             }
         }

@@ -34,12 +34,15 @@ pub struct VerifySettings {
     /// Configurations looked at per piece, link and obstacle before the pair is left undecided; half of them
     /// may go into the accuracy of the least clearance.
     pub evaluations: u32,
+    /// What must not jump where pieces meet, all before it included. Jumps beyond it count only against joints with
+    /// a limit on the next rate.
+    pub continuous: Quantity,
 }
 
 impl Default for VerifySettings {
     /// No margin. A link that moves by 1 m and stays within 0.1 mm of an obstacle all along is still decided.
     fn default() -> Self {
-        Self { margin: 0.0, evaluations: 1 << 17 }
+        Self { margin: 0.0, evaluations: 1 << 17, continuous: Quantity::Acceleration }
     }
 }
 
@@ -67,8 +70,8 @@ pub fn verify_until(
 ) -> Verdict {
     let mut violations = Vec::new();
     let pieces = limits::workable_pieces(motion, &mut violations);
-    let passed_jumps = continuity::check(motion.pieces(), &mut violations);
     let joints = scene.arm.joints();
+    let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
     let reports = [0, 1].map(|j| limits::check(&joints[j], j, pieces.iter(), &mut violations));
     let least_clearance = sweep::check(scene, &pieces, passed_jumps, settings, keep_going, &mut violations);
     violations.sort_by(|a, b| a.time().total_cmp(&b.time()));

@@ -1,4 +1,4 @@
-use super::{Verdict, VerifySettings, verify_until};
+use super::{Quantity, Verdict, VerifySettings, verify_until};
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
@@ -10,7 +10,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// `motion`, if it is safe in `scene`.
+    /// `motion`, if it is safe in `scene`; whatever the settings say, its acceleration must not jump.
     ///
     /// # Errors
     /// The verdict, if it is not proved to be safe.
@@ -32,7 +32,8 @@ impl Trajectory {
         settings: &VerifySettings,
         keep_going: &dyn Fn() -> bool,
     ) -> Result<Self, Box<Verdict>> {
-        let verdict = verify_until(scene, &motion, settings, keep_going);
+        let settings = VerifySettings { continuous: Quantity::Acceleration, ..*settings };
+        let verdict = verify_until(scene, &motion, &settings, keep_going);
         if verdict.is_safe() { Ok(Self { motion, verdict }) } else { Err(Box::new(verdict)) }
     }
 

@@ -83,7 +83,7 @@ pub enum Rate {
 }
 
 /// What must not jump where two pieces meet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quantity {
     /// In rad.
     Position,

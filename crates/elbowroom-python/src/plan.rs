@@ -1,0 +1,140 @@
+use elbowroom::planners::{self, Method, Objective, Pace, PlanSettings};
+use elbowroom::swarm::GuidedSwarmSettings;
+use numpy::PyArray2;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+use crate::motion::Motion;
+use crate::paper::{configurations, postures, tips};
+use crate::scene::Scene;
+use crate::verdict;
+use crate::watch::{self, Timings};
+
+/// What a planner found: a motion that is proved to be safe. There is no other way to make one.
+#[pyclass(frozen, module = "elbowroom._core")]
+pub(crate) struct Plan {
+    plan: planners::Plan,
+    timings: Timings,
+}
+
+#[pymethods]
+impl Plan {
+    /// What the motion costs in terms of the objective: metres, radians or seconds.
+    #[getter]
+    fn cost(&self) -> f64 {
+        self.plan.cost
+    }
+
+    /// Tip travel along the path that the motion was made from (m).
+    #[getter]
+    fn path_cost(&self) -> f64 {
+        self.plan.path_cost
+    }
+
+    /// How many different paths the choice was among.
+    #[getter]
+    fn paths_to_choose_from(&self) -> usize {
+        self.plan.paths_to_choose_from
+    }
+
+    /// Where the tip is at each configuration, shape ``(n, 2)`` (m).
+    #[getter]
+    fn tip_path<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        tips(py, &self.plan.tip_path)
+    }
+
+    /// Configurations from start to goal, shape ``(n, 2)`` (rad); the straight turns between them are certified free.
+    #[getter]
+    fn configurations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        configurations(py, &self.plan.joint_path)
+    }
+
+    /// The posture at each: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line.
+    #[getter]
+    fn postures(&self) -> Vec<Option<&'static str>> {
+        postures(&self.plan.joint_path)
+    }
+
+    /// Places of the path that the motion is led through, by their index.
+    #[getter]
+    fn vias(&self) -> Vec<usize> {
+        self.plan.vias.clone()
+    }
+
+    /// How many via points, ends left out, the arm stops at.
+    #[getter]
+    fn stops(&self) -> usize {
+        self.plan.stops
+    }
+
+    /// The polynomials, proved to be safe.
+    #[getter]
+    fn motion(&self) -> Motion {
+        Motion(self.plan.trajectory.motion().clone())
+    }
+
+    /// Motion limits the scene does not state, and what was taken in their place: joint, rate, value.
+    #[getter]
+    fn assumed_limits(&self) -> Vec<(usize, &'static str, f64)> {
+        self.plan.assumed_limits.iter().map(|limit| (limit.joint, limit.rate, limit.value)).collect()
+    }
+
+    /// Seconds spent in each stage, in order.
+    #[getter]
+    fn timings(&self) -> Timings {
+        self.timings.clone()
+    }
+
+    /// Return the verifier's verdict; ``scene`` names the obstacles.
+    fn verdict<'py>(&self, py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyDict>> {
+        verdict::as_dict(py, &scene.0, self.plan.trajectory.verdict())
+    }
+}
+
+/// Return a plan for the task called ``task``.
+///
+/// Raises:
+///     UnknownTask: The scene has no such task.
+///     NotFree: Start or goal is not free.
+///     NotFound: The certified edges do not connect them.
+///     TimedOut: The timeout came first.
+///     BadSetting: A setting makes no sense, or the duration is too short.
+#[pyfunction]
+#[pyo3(signature = (scene, task, *, swarm, objective, seed, candidates, duration=None, timeout=None, on_stage=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn plan(
+    py: Python<'_>,
+    scene: &Scene,
+    task: &str,
+    swarm: bool,
+    objective: &str,
+    seed: u64,
+    candidates: usize,
+    duration: Option<f64>,
+    timeout: Option<f64>,
+    on_stage: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Plan> {
+    let asked = scene.task(py, task)?;
+    let objective = [Objective::Tip, Objective::Joint, Objective::Time]
+        .into_iter()
+        .find(|known| known.name() == objective)
+        .ok_or_else(|| {
+            errors::setting(
+                py,
+                "objective",
+                &format!("no objective is called '{objective}'; tip, joint or time"),
+            )
+        })?;
+    let method = if swarm {
+        Method::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
+    } else {
+        Method::Dstar
+    };
+    let pace = duration.map_or(Pace::Fastest, Pace::Duration);
+    let settings = PlanSettings { method, objective, pace, seed };
+    let work = |watch: &watch::Watch| planners::plan(&scene.0, asked, &settings, watch);
+    let (result, timings) = watch::run(py, timeout, on_stage, work)?;
+    let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
+    Ok(Plan { plan, timings })
+}
