@@ -5,6 +5,7 @@ Lengths are in metres, angles in radians, times in seconds; positions are in the
 
 from importlib.metadata import version
 
+from elbowroom.check import Check, check, check_file
 from elbowroom.errors import (
     BadSetting,
     ElbowroomError,
@@ -13,10 +14,11 @@ from elbowroom.errors import (
     NotFree,
     SceneError,
     TimedOut,
+    TrajectoryError,
     UnknownTask,
 )
 from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
-from elbowroom.plan import Plan, plan_as_in_paper
+from elbowroom.plan import Plan, plan, plan_as_in_paper
 from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, Polygon, Scene, Task
 
 __version__ = version("elbowroom")
@@ -24,6 +26,7 @@ __version__ = version("elbowroom")
 __all__ = [
     "Arm",
     "BadSetting",
+    "Check",
     "Circle",
     "Configuration",
     "ElbowroomError",
@@ -40,8 +43,12 @@ __all__ = [
     "SceneError",
     "Task",
     "TimedOut",
+    "TrajectoryError",
     "UnknownTask",
     "__version__",
+    "check",
+    "check_file",
     "free_space",
+    "plan",
     "plan_as_in_paper",
 ]

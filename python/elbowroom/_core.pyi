@@ -5,16 +5,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from elbowroom import scene
+from elbowroom.verdict import Verdict
 
 __all__ = [
     "FreeSpace",
     "Motion",
     "PaperPlan",
+    "Plan",
     "Scene",
     "SceneFile",
     "__version__",
     "free_space",
+    "interpolated",
+    "plan",
     "plan_as_in_paper",
+    "verify",
 ]
 
 __version__: str
@@ -29,6 +34,7 @@ class Scene:
         obstacles: Sequence[scene.Circle | scene.Polygon],
         tasks: Sequence[tuple[str, scene.Task]],
     ) -> Scene: ...
+    def link_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
     def elbows_and_tips(self, q: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
 
 @final
@@ -97,3 +103,56 @@ def plan_as_in_paper(
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> PaperPlan: ...
+
+@final
+class Plan:
+    @property
+    def cost(self) -> float: ...
+    @property
+    def path_cost(self) -> float: ...
+    @property
+    def paths_to_choose_from(self) -> int: ...
+    @property
+    def tip_path(self) -> NDArray[np.float64]: ...
+    @property
+    def configurations(self) -> NDArray[np.float64]: ...
+    @property
+    def postures(self) -> list[str | None]: ...
+    @property
+    def vias(self) -> list[int]: ...
+    @property
+    def stops(self) -> int: ...
+    @property
+    def motion(self) -> Motion: ...
+    @property
+    def assumed_limits(self) -> list[tuple[int, str, float]]: ...
+    @property
+    def timings(self) -> list[tuple[str, float]]: ...
+    def verdict(self, scene: Scene) -> Verdict: ...
+
+def plan(
+    scene: Scene,
+    task: str,
+    *,
+    swarm: bool,
+    objective: str,
+    seed: int,
+    candidates: int,
+    duration: float | None = None,
+    timeout: float | None = None,
+    on_stage: Callable[[str], None] | None = None,
+) -> Plan: ...
+def interpolated(
+    times: NDArray[np.float64],
+    positions: NDArray[np.float64],
+    velocities: NDArray[np.float64] | None = None,
+    accelerations: NDArray[np.float64] | None = None,
+) -> tuple[Motion, str]: ...
+def verify(
+    scene: Scene,
+    motion: Motion,
+    *,
+    curve: str,
+    margin: float,
+    timeout: float | None = None,
+) -> Verdict: ...

@@ -134,5 +134,9 @@ class TimedOut(ElbowroomError):
         super().__init__(message, timeout=timeout)
 
 
+class TrajectoryError(ElbowroomError, ValueError):
+    """A file or samples are no trajectory."""
+
+
 class InternalError(ElbowroomError):
     """A bug in elbowroom itself."""

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 from elbowroom import _core
 from elbowroom.errors import BadSetting, NotFree, UnknownTask
 from elbowroom.scene import Scene
+from elbowroom.verdict import Verdict
 
-PaperPlanner = Literal["dstar-pso", "dstar"]
+Planner = Literal["dstar-pso", "dstar"]
+Objective = Literal["tip", "joint", "time"]
 Floats = NDArray[np.float64]
 
 
@@ -38,14 +40,19 @@ class Plan:
     """What a planner found for a task.
 
     Attributes:
-        cost: In terms of the objective: for ``tip`` the length of the tip's path (m).
+        cost: What the motion costs in terms of the objective: tip travel (m), joint travel (rad) or time (s); in paper
+            mode the length of ``tip_path``.
+        path_cost: Tip travel along ``tip_path`` (m).
         lower_bound: No motion costs less; None where unknown.
         tip_path: Places of the tip, start and goal included, shape ``(n, 2)`` (m).
-        equal_paths: All different paths of that cost that were drawn, ``tip_path`` first.
+        equal_paths: All different paths of that cost that were drawn, ``tip_path`` first; in paper mode only.
+        paths_to_choose_from: How many different paths the choice was among.
         configurations: One for each place of ``tip_path``, shape ``(n, 2)`` (rad).
         postures: ``elbow-up``, ``elbow-down``, or None with the links in line, for each configuration.
         jumps: Steps of the path that no arm can carry out: the place each begins at, and what is impossible.
         vias: Places of ``tip_path`` that the motion was led through.
+        stops: At how many of them, ends left out, the arm stops.
+        assumed_limits: Motion limits that the scene does not state, and what was taken: joint, rate, value.
         motion: Polynomial pieces over time.
         verdict: What the verifier says of ``motion``; None if it was never asked: then the motion is not safe to run.
         timings: Seconds spent in each stage.
@@ -58,15 +65,19 @@ class Plan:
     seed: int
     objective: str
     cost: float
+    path_cost: float
     lower_bound: float | None
     tip_path: Floats
     equal_paths: list[Floats]
+    paths_to_choose_from: int
     configurations: Floats
     postures: list[str | None]
     jumps: list[tuple[int, str]]
     vias: list[int]
+    stops: int
+    assumed_limits: list[tuple[int, str, float]]
     motion: _core.Motion
-    verdict: dict[str, Any] | None
+    verdict: Verdict | None
     timings: dict[str, float]
 
     @property
@@ -100,11 +111,103 @@ def only_task(scene: Scene, task: str | None) -> str:
     raise UnknownTask(f"name the task to plan; tasks of this scene: {listed}", name="", known=known)
 
 
+def plan(
+    scene: Scene,
+    *,
+    task: str | None = None,
+    planner: Planner = "dstar-pso",
+    objective: Objective = "tip",
+    seed: int = 0,
+    candidates: int = 300,
+    duration: float | None = None,
+    timeout: float | None = None,
+    on_stage: Callable[[str], None] | None = None,
+) -> Plan:
+    """Return a plan whose motion is proved to be safe.
+
+    The path is over (place, posture): every step is certified free of contact, and the posture changes only through
+    full stretch or fold. The motion along it exists only because the verifier has accepted its polynomials.
+
+    Args:
+        scene: Arm and obstacles.
+        task: Which one; may be left out if there is only one.
+        planner: ``dstar-pso``, which chooses among the paths that a swarm draws, or ``dstar``, the pointers alone.
+        objective: What the choice goes by: ``tip`` travel, ``joint`` travel or ``time``.
+        seed: Of the swarm.
+        candidates: Paths the swarm draws.
+        duration: How long the motion takes (s); None for as fast as the motion limits allow along the path.
+        timeout: When to give up (s).
+        on_stage: Called with the name of each stage as it begins.
+
+    Raises:
+        UnknownTask: The scene has no such task.
+        NotFree: Start or goal is not free.
+        NotFound: The grid does not connect them; a finer one may.
+        TimedOut: The timeout came first.
+        BadSetting: A setting makes no sense, or the duration is too short for the motion limits.
+    """
+    _check_planner(planner)
+    _check_counts(seed=seed, candidates=candidates)
+    task = only_task(scene, task)
+    try:
+        found = _core.plan(
+            scene.core,
+            task,
+            swarm=planner == "dstar-pso",
+            objective=objective,
+            seed=seed,
+            candidates=candidates,
+            duration=duration,
+            timeout=timeout,
+            on_stage=on_stage,
+        )
+    except NotFree as error:
+        raise located(scene, error) from None
+    settings: dict[str, Any] = {"mode": "verified", "duration": "fastest" if duration is None else duration}
+    if planner == "dstar-pso":
+        settings["candidates"] = candidates
+    return Plan(
+        scene=scene,
+        task=task,
+        planner=planner,
+        settings=settings,
+        seed=seed,
+        objective=objective,
+        cost=found.cost,
+        path_cost=found.path_cost,
+        lower_bound=None,
+        tip_path=found.tip_path,
+        equal_paths=[found.tip_path],
+        paths_to_choose_from=found.paths_to_choose_from,
+        configurations=found.configurations,
+        postures=found.postures,
+        jumps=[],
+        vias=found.vias,
+        stops=found.stops,
+        assumed_limits=found.assumed_limits,
+        motion=found.motion,
+        verdict=found.verdict(scene.core),
+        timings=dict(found.timings),
+    )
+
+
+def _check_planner(planner: str) -> None:
+    if planner not in ("dstar-pso", "dstar"):
+        raise BadSetting(f"no planner is called '{planner}'; dstar-pso or dstar", setting="planner")
+
+
+def _check_counts(**counts: int) -> None:
+    for name, number in counts.items():
+        least = 1 if name == "candidates" else 0
+        if not least <= number < 2**63:
+            raise BadSetting(f"{name} is {number}, it must be a whole number from {least} on", setting=name)
+
+
 def plan_as_in_paper(
     scene: Scene,
     *,
     task: str | None = None,
-    planner: PaperPlanner = "dstar-pso",
+    planner: Planner = "dstar-pso",
     seed: int = 0,
     vias: int = 5,
     duration: float = 10.0,
@@ -135,11 +238,8 @@ def plan_as_in_paper(
         TimedOut: The timeout came first.
         BadSetting: A setting makes no sense.
     """
-    if planner not in ("dstar-pso", "dstar"):
-        raise BadSetting(f"no planner is called '{planner}'; dstar-pso or dstar", setting="planner")
-    for name, number, least in (("seed", seed, 0), ("vias", vias, 0), ("candidates", candidates, 1)):
-        if not least <= number < 2**63:
-            raise BadSetting(f"{name} is {number}, it must be a whole number from {least} on", setting=name)
+    _check_planner(planner)
+    _check_counts(seed=seed, vias=vias, candidates=candidates)
     task = only_task(scene, task)
     try:
         found = _core.plan_as_in_paper(
@@ -166,13 +266,17 @@ def plan_as_in_paper(
         seed=seed,
         objective="tip",
         cost=found.cost,
+        path_cost=found.cost,
         lower_bound=None,
         tip_path=found.tip_path,
         equal_paths=found.equal_paths,
+        paths_to_choose_from=len(found.equal_paths),
         configurations=found.configurations,
         postures=found.postures,
         jumps=found.jumps,
         vias=found.vias,
+        stops=0,
+        assumed_limits=[],
         motion=found.motion,
         verdict=None,
         timings=dict(found.timings),

@@ -37,6 +37,7 @@ def as_json(plan: Plan) -> dict[str, Any]:
         "seed": plan.seed,
         "objective": plan.objective,
         "cost": plan.cost,
+        "path_cost": plan.path_cost,
         "lower_bound": plan.lower_bound,
         "gap": plan.gap,
         "tip_path": plan.tip_path.tolist(),
@@ -44,6 +45,10 @@ def as_json(plan: Plan) -> dict[str, Any]:
         "postures": plan.postures,
         "jumps": [{"index": index, "kind": kind} for index, kind in plan.jumps],
         "vias": plan.vias,
+        "stops": plan.stops,
+        "assumed_limits": [
+            {"joint": joint, "rate": rate, "value": value} for joint, rate, value in plan.assumed_limits
+        ],
         "pieces": [
             {"start": start, "duration": duration, "coefficients": of_joints}
             for start, duration, of_joints in zip(starts, durations, coefficients, strict=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
 
@@ -131,6 +132,19 @@ class Scene:
             SceneError: The file cannot be read or is no scene; with file, line, column and key.
         """
         return cls.parse(_text_of(Path(path)), file=str(path))
+
+    @classmethod
+    def example(cls, name: str) -> Scene:
+        """Return one of the scenes that come with the package, such as ``paper-standin``.
+
+        Raises:
+            SceneError: There is no such scene; the message lists those there are.
+        """
+        folder = resources.files("elbowroom") / "scenes"
+        known = sorted(file.name.removesuffix(".yaml") for file in folder.iterdir() if file.name.endswith(".yaml"))
+        if name not in known:
+            raise SceneError(f"no example is called '{name}'; there are {', '.join(known)}", key="")
+        return cls.parse((folder / f"{name}.yaml").read_text(encoding="utf-8"), file=f"scenes/{name}.yaml")
 
     @classmethod
     def parse(cls, text: str, *, file: str = "scene") -> Scene:

@@ -1,4 +1,5 @@
 use elbowroom::arm::{Configuration, JointLimits};
+use elbowroom::path::link_clearances;
 use elbowroom::scene::{self, Place, Shape, Task, TaskPosture};
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
@@ -49,17 +50,26 @@ impl Scene {
             .map_err(|problem| errors::part(py, "scene", &problem.to_string()))
     }
 
+    /// Return the clearance of each link at configurations ``q``, shape ``(n, 2)`` (m); 0 or less in contact, infinite
+    /// without obstacles. Joint limits are not looked at.
+    fn link_clearances<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let configurations = configurations(py, &q)?;
+        let found: Vec<[f64; 2]> =
+            py.detach(|| configurations.iter().map(|q| link_clearances(&self.0, q)).collect());
+        Ok(points(py, found.into_iter()))
+    }
+
     /// Return where elbow and tip are at configurations ``q``, shape ``(n, 2)`` each (m).
     fn elbows_and_tips<'py>(
         &self,
         py: Python<'py>,
         q: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<PointArrays<'py>> {
-        if q.as_array().ncols() != 2 {
-            return Err(errors::setting(py, "q", "configurations have two columns, one per joint"));
-        }
-        let configurations: Vec<_> =
-            q.as_array().rows().into_iter().map(|row| Configuration([row[0], row[1]])).collect();
+        let configurations = configurations(py, &q)?;
         let arm = &self.0.arm;
         let at = |point: elbowroom::geometry::Point| [point.x, point.y];
         Ok((
@@ -139,6 +149,13 @@ impl SceneFile {
         parts.set_item("tasks", tasks)?;
         Ok(parts)
     }
+}
+
+fn configurations(py: Python<'_>, q: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Configuration<2>>> {
+    if q.as_array().ncols() != 2 {
+        return Err(errors::setting(py, "q", "configurations have two columns, one per joint"));
+    }
+    Ok(q.as_array().rows().into_iter().map(|row| Configuration([row[0], row[1]])).collect())
 }
 
 fn arm_parts<'py>(py: Python<'py>, scene: &scene::Scene) -> PyResult<Bound<'py, PyDict>> {

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from elbowroom.cli.check_command import check_command
 from elbowroom.cli.map_command import map_command
 from elbowroom.cli.paper_command import paper_command
 from elbowroom.cli.plan_command import plan_command
@@ -20,6 +21,7 @@ app = typer.Typer(
     epilog="Exit codes: 0 done, 1 proved that there is no path, 2 bad input, 3 nothing found in time, 4 not safe.",
 )
 app.command("plan")(plan_command)
+app.command("check")(check_command)
 app.command("map")(map_command)
 app.command("paper")(paper_command)
 

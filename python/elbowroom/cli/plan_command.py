@@ -14,47 +14,61 @@ def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
     planner: Annotated[str, typer.Option(help="dstar-pso or dstar.")] = "dstar-pso",
-    seed: Annotated[int, typer.Option(help="Seed of the swarm and of the via points.")] = 0,
+    objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
+    seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
-    duration: Annotated[float, typer.Option(help="How long the motion takes (s).")] = 10.0,
+    duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
     out: Annotated[Path | None, typer.Option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
+    animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Plan a motion for a task."""
+    """Plan a motion that is proved to be safe."""
     with reported():
         import json
 
-        from elbowroom.cli.plan_pictures import draw
+        from elbowroom.cli.plan_text import in_words
         from elbowroom.cli.progress import progress
-        from elbowroom.plan import plan_as_in_paper
+        from elbowroom.errors import BadSetting
+        from elbowroom.plan import plan as make_plan
         from elbowroom.plan_files import as_json as document
         from elbowroom.plan_files import write_plan
         from elbowroom.scene import Scene
 
+        seconds = _seconds(duration)
+        if animate and out is None:
+            raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
         loaded = Scene.load(scene)
         with progress() as show:
-            plan = plan_as_in_paper(
+            plan = make_plan(
                 loaded,
                 task=task,
                 planner=planner,  # type: ignore[arg-type]
+                objective=objective,  # type: ignore[arg-type]
                 seed=seed,
                 timeout=timeout,
-                duration=duration,
+                duration=seconds,
                 on_stage=show,
             )
             written: list[Path] = []
             if out is not None:
+                from elbowroom.cli.plan_pictures import draw
+
                 show("drawing")
-                written = [*write_plan(plan, out), *draw(plan, out)]
+                written = [*write_plan(plan, out), *draw(plan, out, animate=animate)]
         if as_json:
             typer.echo(json.dumps(document(plan), allow_nan=False))
             return
-        spent = sum(plan.timings.values())
-        typer.echo(f"{plan.planner}: path of {plan.cost:.6f} m for task '{plan.task}', found in {spent * 1e3:.1f} ms")
-        typer.echo(
-            f"motion of {plan.motion.duration:g} s through {len(plan.vias)} via points: NOT VERIFIED, do not run it"
-        )
-        if plan.jumps:
-            typer.echo(f"{len(plan.jumps)} of its steps jump between postures or across a stop: no arm can follow")
+        typer.echo(in_words(plan))
         for path in written:
             typer.echo(f"wrote {path}")
+
+
+def _seconds(duration: str) -> float | None:
+    from elbowroom.errors import BadSetting
+
+    if duration == "fastest":
+        return None
+    try:
+        return float(duration)
+    except ValueError:
+        raise BadSetting(f"duration is '{duration}'; a number of seconds, or fastest", setting="duration") from None

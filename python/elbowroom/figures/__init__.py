@@ -1,12 +1,18 @@
-"""Pictures: of maps, paths and motions. Every function returns a matplotlib ``Figure``."""
+"""Pictures: of maps, paths and motions. Every function but ``animate`` returns a matplotlib ``Figure``."""
 
+from elbowroom.figures.animation import animate
+from elbowroom.figures.clearance import clearance_curve
+from elbowroom.figures.configuration_space import configuration_space
 from elbowroom.figures.curves import joint_curves, tip_curve
 from elbowroom.figures.maps import posture_map, union_map
 from elbowroom.figures.paths import arm_tracking, smoothed_path, tip_path
 from elbowroom.figures.style import save
 
 __all__ = [
+    "animate",
     "arm_tracking",
+    "clearance_curve",
+    "configuration_space",
     "joint_curves",
     "posture_map",
     "save",

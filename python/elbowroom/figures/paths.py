@@ -29,7 +29,7 @@ STILLS = 25
 
 def tip_path(plan: Plan, space: FreeSpace) -> Figure:
     """Return the tip's path over the free grid points, with the other paths of the same cost behind it."""
-    title = f"task '{plan.task}': {plan.planner} path, {plan.cost * CM:.4f} cm"
+    title = f"task '{plan.task}': {plan.planner} path, {plan.path_cost * CM:.4f} cm"
     figure, axes = plane(title, plan.scene)
     ys, xs = np.nonzero(space.union)
     axes.plot(space.x[xs] * CM, space.y[ys] * CM, ".", color=FREE, markersize=1.5, zorder=1, label="free grid point")
@@ -46,7 +46,7 @@ def tip_path(plan: Plan, space: FreeSpace) -> Figure:
 
 def smoothed_path(plan: Plan) -> Figure:
     """Return the tip's way along the quintic pieces, with the path and the via points that it was led through."""
-    title = f"task '{plan.task}': quintic pieces, {plan.motion.duration:g} s"
+    title = f"task '{plan.task}': quintic pieces, {plan.motion.duration:.4g} s"
     figure, axes = plane(_with_verdict(title, plan), plan.scene)
     samples = plan.at(np.linspace(0.0, plan.motion.duration, 2001))
     _line(axes, plan.tip_path, color=PATH, linewidth=1.2, linestyle="--", zorder=4, label="path")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from importlib.resources import as_file, files
 from pathlib import Path
 
 from elbowroom import figures
@@ -56,8 +55,7 @@ def reproduce(out: Path, *, seed: int = 0, seeds: int = 100, show: Callable[[str
     trials: list[Trial] = []
     maps: dict[str, tuple[FreeSpace, list[Path]]] = {}
     for name in SCENES:
-        with as_file(files("elbowroom") / "scenes" / f"{name}.yaml") as path:
-            scene = replace(Scene.load(path), file=f"scenes/{name}.yaml")
+        scene = Scene.example(name)
         folder = out / name
         tell(f"{name}: free space")
         space = free_space(scene)

@@ -32,14 +32,19 @@ pub fn sweep_is_free(scene: &Scene, from: &Configuration<2>, to: &Configuration<
     })
 }
 
-/// Clearance of each link at `q` from the nearest obstacle, less [`CERTIFIED_CLEARANCE`] (m).
+/// Clearance of each link at `q` from the nearest obstacle (m), base first.
+pub fn link_clearances(scene: &Scene, q: &Configuration<2>) -> [f64; 2] {
+    scene.arm.links(q).map(|link| {
+        let distances = scene.obstacles.iter().map(|obstacle| obstacle.distance_to_segment(link));
+        distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width()
+    })
+}
+
+/// [`link_clearances`] less [`CERTIFIED_CLEARANCE`] (m).
 ///
 /// With the sum of two of these above [`motion_bounds`], both links are clear all along the straight turn.
 pub fn certified_clearance(scene: &Scene, q: &Configuration<2>) -> [f64; 2] {
-    scene.arm.links(q).map(|link| {
-        let distances = scene.obstacles.iter().map(|obstacle| obstacle.distance_to_segment(link));
-        distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width() - CERTIFIED_CLEARANCE
-    })
+    link_clearances(scene, q).map(|clearance| clearance - CERTIFIED_CLEARANCE)
 }
 
 /// A configuration with the links it makes.

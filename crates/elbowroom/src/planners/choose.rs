@@ -2,7 +2,7 @@
 
 use super::settings::Objective;
 use crate::arm::Configuration;
-use crate::path::{JointPath, simplify};
+use crate::path::{JointPath, link_clearances, simplify};
 use crate::scene::Scene;
 use crate::trajectory::{SpeedLimits, fastest_durations, vias_at};
 
@@ -41,9 +41,5 @@ fn corners(scene: &Scene, path: &JointPath) -> Vec<Configuration<2>> {
 
 /// Least clearance at the places of `path` (m).
 fn clearance(scene: &Scene, path: &JointPath) -> f64 {
-    path.0
-        .iter()
-        .flat_map(|q| scene.arm.links(q))
-        .flat_map(|link| scene.obstacles.iter().map(move |obstacle| obstacle.distance_to_segment(link)))
-        .fold(f64::INFINITY, f64::min)
+    path.0.iter().flat_map(|q| link_clearances(scene, q)).fold(f64::INFINITY, f64::min)
 }

@@ -1,0 +1,44 @@
+"""The command ``elbowroom check``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elbowroom.cli.failure import UNSAFE, reported
+
+
+def check_command(
+    scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
+    file: Annotated[Path, typer.Argument(help="Trajectory: our CSV, or a JointTrajectory as JSON or YAML.")],
+    joints: Annotated[
+        str | None, typer.Option(help="Names of the joints in the file, base first: FIRST,SECOND.")
+    ] = None,
+    margin: Annotated[float, typer.Option(help="Clearance to keep (m).")] = 0.0,
+    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Judge anybody's trajectory: exit code 0 only if it is proved to be safe, else 4."""
+    with reported():
+        import json
+
+        from elbowroom.check import check_file
+        from elbowroom.cli.plan_text import verdict_lines
+        from elbowroom.errors import BadSetting
+        from elbowroom.scene import Scene
+
+        names = tuple(joints.split(",")) if joints is not None else None
+        if names is not None and len(names) != 2:
+            raise BadSetting(f"--joints names {len(names)} joints; an arm of 2 joints has 2", setting="joints")
+        loaded = Scene.load(scene)
+        result = check_file(loaded, file, joints=names, margin=margin, timeout=timeout)
+        if as_json:
+            typer.echo(json.dumps({"curve": result.curve, **result.verdict}, allow_nan=False))
+        else:
+            pieces = len(result.motion.starts)
+            typer.echo(f"{file}: {pieces} {result.curve} pieces, {result.motion.duration:.3f} s")
+            typer.echo("\n".join(verdict_lines(result.verdict)))
+        if not result.safe:
+            raise typer.Exit(UNSAFE)

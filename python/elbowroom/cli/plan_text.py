@@ -1,0 +1,63 @@
+"""A plan and a verdict in words."""
+
+from __future__ import annotations
+
+import math
+
+from elbowroom.plan import Plan
+from elbowroom.verdict import Verdict
+
+UNITS = {"tip": "m of tip travel", "joint": "rad of joint travel", "time": "s"}
+
+
+def in_words(plan: Plan) -> str:
+    """Return what a user wants to know of ``plan``."""
+    spent = sum(plan.timings.values())
+    stops = f", {plan.stops} of them stops" if plan.stops else ""
+    lines = [
+        f"{plan.planner}: task '{plan.task}' planned in {spent * 1e3:.1f} ms, best of {plan.paths_to_choose_from} "
+        + ("path" if plan.paths_to_choose_from == 1 else "paths"),
+        f"cost {plan.cost:.6f} {UNITS[plan.objective]}; motion of {plan.motion.duration:.3f} s "
+        f"through {len(plan.vias)} via points{stops}",
+    ]
+    if plan.verdict is not None:
+        lines += verdict_lines(plan.verdict)
+    if plan.assumed_limits:
+        lines.append(f"not stated in the scene, so taken as {_assumed(plan)}")
+    return "\n".join(lines)
+
+
+def _assumed(plan: Plan) -> str:
+    """What was assumed, joints with the same limit together."""
+    joints: dict[tuple[str, float], list[str]] = {}
+    for joint, rate, value in plan.assumed_limits:
+        joints.setdefault((rate, value), []).append(str(joint))
+    return ", ".join(
+        f"{rate} {math.degrees(value):g} {UNIT_OF_RATE[rate]} (joint {' and '.join(numbers)})"
+        for (rate, value), numbers in joints.items()
+    )
+
+
+UNIT_OF_RATE = {"velocity": "deg/s", "acceleration": "deg/s²", "jerk": "deg/s³"}
+
+
+def verdict_lines(verdict: Verdict) -> list[str]:
+    """Return ``verdict`` for people."""
+    lines = ["SAFE: proved for the whole motion" if verdict["safe"] else "NOT SAFE"]
+    lines += [f"  {violation['message']}" for violation in verdict["violations"]]
+    nearest = verdict["least_clearance"]
+    if nearest is not None:
+        name = f" ({nearest['name']})" if nearest["name"] else ""
+        lines.append(
+            f"  least clearance {nearest['distance'] * 1e3:.4f} mm at {nearest['time']:.3f} s, "
+            f"link {nearest['link']} and obstacle {nearest['obstacle']}{name}"
+        )
+    for joint, margin in enumerate(verdict["joint_margins"], 1):
+        if margin is not None:
+            lines.append(
+                f"  joint {joint} comes within {math.degrees(margin[0]):.3f} deg of a stop at {margin[1]:.3f} s"
+            )
+    changes = verdict["posture_changes"]
+    if changes:
+        lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
+    return lines

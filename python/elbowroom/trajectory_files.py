@@ -1,0 +1,180 @@
+"""Trajectories of other tools: our CSV, and dumps of ROS 2's JointTrajectory."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from elbowroom.errors import TrajectoryError
+
+Floats = NDArray[np.float64]
+
+LARGEST_FILE = 256 * 1024 * 1024
+"""Largest trajectory file that is read (bytes)."""
+
+RATES = (("v", "rad_s", "velocities"), ("a", "rad_s2", "accelerations"))
+
+
+@dataclass(frozen=True, eq=False)
+class TrajectorySamples:
+    """Times (s) and joint positions, velocities and accelerations at them; None where the file has none."""
+
+    t: Floats
+    q: Floats
+    v: Floats | None
+    a: Floats | None
+
+
+def read_trajectory(path: Path, *, joints: tuple[str, str] | None = None) -> TrajectorySamples:
+    """Return the trajectory in the file at ``path``: CSV, or a JSON or YAML dump of a JointTrajectory."""
+
+    def refused(what: str) -> TrajectoryError:
+        return TrajectoryError(f"{path}: {what}")
+
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise refused("more than 256 MiB, which is the most a trajectory file may have")
+        text = path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise refused(f"cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError as error:
+        raise refused(f"byte {error.start} is not UTF-8") from None
+    if not text.strip():
+        raise refused("the file is empty")
+    try:
+        if path.suffix.lower() in (".json", ".yaml", ".yml"):
+            return _joint_trajectory(_document(text, path), joints)
+        return _table(text)
+    except TrajectoryError as error:
+        raise refused(str(error)) from None
+
+
+def _table(text: str) -> TrajectorySamples:
+    rows = [row for row in csv.reader(io.StringIO(text)) if row]
+    header, body = [name.strip() for name in rows[0]], rows[1:]
+    needed = ["time_s", "q1_rad", "q2_rad"]
+    known = {*needed, "x_m", "y_m", *(f"{letter}{j}_{unit}" for letter, unit, _ in RATES for j in (1, 2))}
+    if missing := [name for name in needed if name not in header]:
+        raise TrajectoryError(f"column {missing[0]} is missing; found {', '.join(header)[:100]}")
+    if unknown := [name for name in header if name not in known]:
+        raise TrajectoryError(f"no such column: {unknown[0]}; known are {', '.join(sorted(known))}")
+    if len(set(header)) != len(header):
+        raise TrajectoryError("a column comes twice")
+    values = np.empty((len(body), len(header)))
+    for i, row in enumerate(body):
+        if len(row) != len(header):
+            raise TrajectoryError(f"row {i + 1} has {len(row)} cells for {len(header)} columns")
+        try:
+            values[i] = [float(cell) for cell in row]
+        except ValueError:
+            raise TrajectoryError(f"row {i + 1} has a cell that is no number") from None
+
+    def columns(letter: str, unit: str) -> Floats | None:
+        names = [f"{letter}{j}_{unit}" for j in (1, 2)]
+        there = [name in header for name in names]
+        if not any(there):
+            return None
+        if not all(there):
+            raise TrajectoryError(f"column {names[there.index(False)]} is missing beside {names[there.index(True)]}")
+        return values[:, [header.index(name) for name in names]]
+
+    velocities, accelerations = (columns(letter, unit) for letter, unit, _ in RATES)
+    if velocities is None and accelerations is not None:
+        raise TrajectoryError("columns of accelerations without columns of velocities")
+    time, first, second = (values[:, header.index(name)] for name in needed)
+    return TrajectorySamples(time, np.column_stack([first, second]), velocities, accelerations)
+
+
+def _document(text: str, path: Path) -> Any:
+    if path.suffix.lower() == ".json":
+        try:
+            return json.loads(text)
+        except (json.JSONDecodeError, RecursionError) as error:
+            raise TrajectoryError(f"not JSON: {error}") from None
+    import yaml
+
+    loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        # A dump of a topic may hold several messages; the first is taken.
+        return next(iter(yaml.load_all(text, Loader=loader)), None)
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise TrajectoryError(f"not YAML: {' '.join(str(error).split())[:200]}") from None
+
+
+def _joint_trajectory(document: Any, joints: tuple[str, str] | None) -> TrajectorySamples:
+    for wrapper in ("trajectory", "joint_trajectory"):
+        if isinstance(document, Mapping) and wrapper in document and "points" not in document:
+            document = document[wrapper]
+    if not (isinstance(document, Mapping) and "joint_names" in document and "points" in document):
+        raise TrajectoryError("no JointTrajectory: joint_names and points are needed")
+    order = _order(document["joint_names"], joints)
+    points = document["points"]
+    if not isinstance(points, Sequence) or isinstance(points, str) or not points:
+        raise TrajectoryError("points is not a list of at least one point")
+    times = np.array([_time(point, i) for i, point in enumerate(points)])
+    positions = np.array([_values(point, i, "positions") for i, point in enumerate(points)])
+    rates: list[Floats | None] = []
+    for _, _, name in RATES:
+        there = [bool(point.get(name)) for point in points]
+        if any(there) and not all(there):
+            raise TrajectoryError(f"point {there.index(False) + 1} has no {name}, others have")
+        values = [_values(point, i, name) for i, point in enumerate(points)] if all(there) else None
+        rates.append(None if values is None else np.array(values)[:, order])
+    velocities, accelerations = rates
+    if velocities is None and accelerations is not None:
+        raise TrajectoryError("accelerations without velocities")
+    return TrajectorySamples(times, positions[:, order], velocities, accelerations)
+
+
+def _order(names: Any, joints: tuple[str, str] | None) -> list[int]:
+    """Where the joint at the base and the next one are in the lists of the file."""
+    if not (isinstance(names, Sequence) and all(isinstance(name, str) for name in names)) or isinstance(names, str):
+        raise TrajectoryError("joint_names is not a list of names")
+    if len(names) != 2:
+        raise TrajectoryError(f"{len(names)} joint names; an arm of 2 joints has 2")
+    if joints is not None:
+        if sorted(joints) != sorted(names):
+            raise TrajectoryError(f"joint names are {', '.join(names)}; asked for were {', '.join(joints)}")
+        return [names.index(joint) for joint in joints]
+    stems = [re.fullmatch(r"(.*?)0*([12])(\D*)", name) for name in names]
+    if all(stems) and {m[2] for m in stems if m} == {"1", "2"} and len({(m[1], m[3]) for m in stems if m}) == 1:
+        return sorted(range(2), key=lambda i: stems[i][2])  # type: ignore[index]
+    raise TrajectoryError(
+        f"joint names are {', '.join(names)}: which is at the base? Name them, base first: --joints FIRST,SECOND"
+    )
+
+
+def _time(point: Any, index: int) -> float:
+    if not isinstance(point, Mapping):
+        raise TrajectoryError(f"point {index + 1} is not a mapping")
+    time = point.get("time_from_start")
+    try:
+        if isinstance(time, Mapping):
+            seconds = time.get("sec", time.get("secs"))
+            fraction = time.get("nanosec", time.get("nsecs", 0))
+            return float(seconds) + float(fraction) * 1e-9
+        if isinstance(time, bool) or time is None:
+            raise TypeError
+        return float(time)
+    except (TypeError, ValueError, OverflowError):
+        raise TrajectoryError(f"point {index + 1} has no time_from_start with sec and nanosec") from None
+
+
+def _values(point: Any, index: int, name: str) -> list[float]:
+    values = point.get(name)
+    try:
+        numbers = [float(value) for value in values]
+    except (TypeError, ValueError, OverflowError):
+        raise TrajectoryError(f"point {index + 1} has no list of numbers as {name}") from None
+    if len(numbers) != 2:
+        raise TrajectoryError(f"point {index + 1} has {len(numbers)} {name} for 2 joints")
+    return numbers
