@@ -16,7 +16,7 @@ def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
 def test_help_names_the_commands_and_exit_codes() -> None:
     shown = run("--help")
     assert shown.returncode == 0
-    for word in ("plan", "map", "paper", "Exit codes"):
+    for word in ("plan", "map", "check", "paper", "Exit codes"):
         assert word in shown.stdout
     assert run("--version").stdout.startswith("elbowroom 0.")
 
@@ -33,15 +33,37 @@ def test_map_counts_and_draws(scenes: Path, tmp_path: Path) -> None:
     assert table.stderr == ""
 
 
-def test_plan_says_that_it_is_not_verified(scenes: Path, tmp_path: Path) -> None:
-    done = run("plan", scenes / "paper-standin.yaml", "--task", "first", "--out", tmp_path)
+def test_plan_hands_out_a_motion_that_check_calls_safe(scenes: Path, tmp_path: Path) -> None:
+    scene = scenes / "paper-standin.yaml"
+    done = run("plan", scene, "--task", "first", "--out", tmp_path, "--animate")
     assert done.returncode == 0
-    assert "NOT VERIFIED" in done.stdout
-    assert (tmp_path / "plan.json").exists()
-    assert (tmp_path / "trajectory.csv").exists()
-    printed = json.loads(run("plan", scenes / "paper-standin.yaml", "--task", "first", "--json").stdout)
-    assert printed["verified"] is False
-    assert printed["cost"] == pytest.approx(0.953553, abs=1e-6)
+    assert "SAFE: proved" in done.stdout
+    names = ["tip_path", "smoothed_path", "arm_tracking", "configuration_space", "joints", "clearance"]
+    for name in [*(f"{name}.png" for name in names), "plan.json", "trajectory.csv", "motion.gif"]:
+        assert (tmp_path / name).stat().st_size > 1000, name
+    checked = run("check", scene, tmp_path / "trajectory.csv")
+    assert checked.returncode == 0
+    assert "SAFE: proved" in checked.stdout
+    printed = json.loads(run("plan", scene, "--task", "first", "--json", "--objective", "joint").stdout)
+    assert printed["verified"] is True
+    assert printed["objective"] == "joint"
+    assert printed["verdict"]["least_clearance"]["distance"] > 0
+    slow = json.loads(run("plan", scene, "--task", "second", "--json", "--duration", "12.5").stdout)
+    assert slow["pieces"][-1]["start"] + slow["pieces"][-1]["duration"] == pytest.approx(12.5, abs=1e-9)
+
+
+def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path) -> None:
+    table = tmp_path / "straight.csv"
+    table.write_text("time_s,q1_rad,q2_rad\n0,0.0,0.0\n5,1.5,0.0\n")
+    failed = run("check", scenes / "paper-standin.yaml", table)
+    assert failed.returncode == 4
+    assert "NOT SAFE" in failed.stdout
+    assert "link 2" in failed.stdout
+    as_data = run("check", scenes / "paper-standin.yaml", table, "--json")
+    assert as_data.returncode == 4
+    verdict = json.loads(as_data.stdout)
+    assert verdict["safe"] is False
+    assert {"time", "link", "obstacle", "depth"} <= set(verdict["violations"][0])
 
 
 @pytest.mark.parametrize(
@@ -54,6 +76,11 @@ def test_plan_says_that_it_is_not_verified(scenes: Path, tmp_path: Path) -> None
         (("plan", "SCENES/paper-table1.yaml", "--task", "first"), 3, "not found at this resolution"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--timeout", "0"), 3, "timeout"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--duration", "nan"), 2, "duration"),
+        (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--duration", "soon"), 2, "or fastest"),
+        (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--objective", "fun"), 2, "tip, joint or time"),
+        (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--animate"), 2, "needs --out"),
+        (("check", "SCENES/paper-standin.yaml", "missing.csv"), 2, "missing.csv: cannot be read"),
+        (("check", "SCENES/paper-standin.yaml", "missing.csv", "--joints", "a"), 2, "names 1 joints"),
     ],
 )
 def test_failures_are_short_and_have_their_exit_code(

@@ -8,6 +8,7 @@ from elbowroom import scene
 from elbowroom.verdict import Verdict
 
 __all__ = [
+    "TICK",
     "FreeSpace",
     "Motion",
     "PaperPlan",
@@ -22,6 +23,7 @@ __all__ = [
     "verify",
 ]
 
+TICK: float
 __version__: str
 
 @final

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from elbowroom import _core
+from elbowroom.errors import TrajectoryError
 from elbowroom.scene import Scene
 from elbowroom.trajectory_files import TrajectorySamples, read_trajectory
 from elbowroom.verdict import Verdict
@@ -86,5 +87,8 @@ def check_file(
         TrajectoryError: The file cannot be read or is no trajectory.
         TimedOut: The timeout came first.
     """
-    samples: TrajectorySamples = read_trajectory(Path(path), joints=joints)
-    return check(scene, t=samples.t, q=samples.q, v=samples.v, a=samples.a, margin=margin, timeout=timeout)
+    try:
+        samples: TrajectorySamples = read_trajectory(Path(path), joints=joints)
+        return check(scene, t=samples.t, q=samples.q, v=samples.v, a=samples.a, margin=margin, timeout=timeout)
+    except TrajectoryError as error:
+        raise TrajectoryError(f"{path}: {error}") from None

@@ -6,11 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from elbowroom._core import __version__
+from elbowroom._core import TICK, __version__
 from elbowroom.plan import Plan
-
-PERIOD = 0.01
-"""Time between rows of ``trajectory.csv`` (s)."""
 
 COLUMNS = (
     "time_s",
@@ -71,7 +68,7 @@ def write_plan(plan: Plan, folder: Path) -> list[Path]:
 
 def as_csv(plan: Plan) -> str:
     """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
-    samples = plan.sample(period=PERIOD)
+    samples = plan.sample(period=TICK)
     columns = [samples.t, *samples.q.T, *samples.v.T, *samples.a.T, *samples.tip.T]
     rows = zip(*(column.tolist() for column in columns), strict=True)
     return "\n".join([",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows)]) + "\n"

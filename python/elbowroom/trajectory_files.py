@@ -35,27 +35,24 @@ class TrajectorySamples:
 
 
 def read_trajectory(path: Path, *, joints: tuple[str, str] | None = None) -> TrajectorySamples:
-    """Return the trajectory in the file at ``path``: CSV, or a JSON or YAML dump of a JointTrajectory."""
+    """Return the trajectory in the file at ``path``: CSV, or a JSON or YAML dump of a JointTrajectory.
 
-    def refused(what: str) -> TrajectoryError:
-        return TrajectoryError(f"{path}: {what}")
-
+    Raises:
+        TrajectoryError: The file cannot be read or is no trajectory; the message leaves out its name.
+    """
     try:
         if path.stat().st_size > LARGEST_FILE:
-            raise refused("more than 256 MiB, which is the most a trajectory file may have")
+            raise TrajectoryError("more than 256 MiB, which is the most a trajectory file may have")
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise refused(f"cannot be read: {error.strerror or error}") from None
+        raise TrajectoryError(f"cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError as error:
-        raise refused(f"byte {error.start} is not UTF-8") from None
+        raise TrajectoryError(f"byte {error.start} is not UTF-8") from None
     if not text.strip():
-        raise refused("the file is empty")
-    try:
-        if path.suffix.lower() in (".json", ".yaml", ".yml"):
-            return _joint_trajectory(_document(text, path), joints)
-        return _table(text)
-    except TrajectoryError as error:
-        raise refused(str(error)) from None
+        raise TrajectoryError("the file is empty")
+    if path.suffix.lower() in (".json", ".yaml", ".yml"):
+        return _joint_trajectory(_document(text, path), joints)
+    return _table(text)
 
 
 def _table(text: str) -> TrajectorySamples:

@@ -5,7 +5,7 @@ use super::settings::Pace;
 use crate::path::{JointPath, simplify};
 use crate::scene::Scene;
 use crate::trajectory::{
-    Motion, MotionError, Piece, SpeedLimits, Via, fastest_durations, quintic_through, stretch,
+    Motion, MotionError, Piece, SpeedLimits, Via, fastest_durations, quintic_through, rescaled, stretch,
 };
 use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 
@@ -98,18 +98,22 @@ fn durations_of(
     stated: &[SpeedLimits; 2],
     pace: Pace,
 ) -> Result<Vec<f64>, SmoothError> {
-    let mut durations = fastest_durations(vias, limits);
-    if let Pace::Duration(asked) = pace {
-        let fastest: f64 = durations.iter().sum();
-        let pieces = quintic_through(vias, &durations);
-        // Only what the scene states forbids a duration; the rest is taste.
-        let needed = pieces.iter().map(|piece| stretch(piece, stated)).fold(0.0, f64::max) * fastest;
-        if asked < needed {
-            return Err(SmoothError::TooFast { fastest: needed });
-        }
-        durations.iter_mut().for_each(|duration| *duration *= asked / fastest);
+    let durations = fastest_durations(vias, limits);
+    let Pace::Duration(asked) = pace else { return Ok(durations) };
+    let fastest: f64 = durations.iter().sum();
+    // Only what the scene states forbids a duration; the rest is taste.
+    let slow_down = |durations: &[f64]| {
+        quintic_through(vias, durations).iter().map(|piece| stretch(piece, stated)).fold(0.0, f64::max)
+    };
+    let needed = slow_down(&durations) * fastest;
+    if asked < needed {
+        return Err(SmoothError::TooFast { fastest: needed });
     }
-    Ok(durations)
+    let on_ticks = rescaled(&durations, asked);
+    if slow_down(&on_ticks) <= 1.0 {
+        return Ok(on_ticks);
+    }
+    Ok(durations.iter().map(|duration| duration * (asked / fastest)).collect())
 }
 
 fn timed(

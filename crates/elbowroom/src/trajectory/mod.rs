@@ -13,5 +13,5 @@ pub use interpolate::{Curve, MAX_ROWS, Samples, SamplesError, interpolate};
 pub use motion::{Motion, MotionError};
 pub use piece::{Piece, State};
 pub use spline::{Via, durations_by_length, quintic_through, vias_at};
-pub use timing::{SpeedLimits, fastest_durations, stretch};
+pub use timing::{SpeedLimits, TICK, fastest_durations, rescaled, stretch};
 pub use via::random_vias;

@@ -19,11 +19,61 @@ pub struct SpeedLimits {
     pub jerk: f64,
 }
 
-/// Durations (s) of the pieces between `vias`, as short as this search finds under `limits`, joint by joint.
+/// What the pieces of a planned motion last whole numbers of (s): samples taken this often meet every via, so that
+/// the quintic curve through them is the motion itself.
+pub const TICK: f64 = 0.01;
+
+/// Rounds of giving single pieces more ticks before all are given more.
+const TICK_ROUNDS: usize = 32;
+
+/// Durations (s) of the pieces between `vias`, whole numbers of [`TICK`], as short as this search finds under
+/// `limits`, joint by joint.
 ///
 /// Pieces that press against a limit are given more time, the others less, a few rounds long; then all are
 /// stretched by what the worst one needs.
 pub fn fastest_durations(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
+    let durations = fastest_between_ticks(vias, limits);
+    let mut ticks: Vec<f64> = durations.iter().map(|duration| (duration / TICK).ceil().max(1.0)).collect();
+    for round in 0.. {
+        let durations: Vec<f64> = ticks.iter().map(|count| count * TICK).collect();
+        let pieces = quintic_through(vias, &durations);
+        let slow_down: Vec<f64> = pieces.iter().map(|piece| stretch(piece, limits) * HEADROOM).collect();
+        // A piece's neighbours shape it, so that lengthening one may press another: in the end all are lengthened.
+        let worst = slow_down.iter().copied().fold(0.0, f64::max);
+        if worst <= 1.0 || durations.is_empty() || !worst.is_finite() {
+            return durations;
+        }
+        for (count, needed) in ticks.iter_mut().zip(slow_down) {
+            let needed = if round < TICK_ROUNDS { needed } else { worst };
+            if needed > 1.0 {
+                *count = (*count * needed).ceil().max(*count + 1.0);
+            }
+        }
+    }
+    durations
+}
+
+/// `durations` stretched or shortened evenly to add up to `total` (s), each via moved to the nearest tick unless a
+/// piece would be left without any.
+pub fn rescaled(durations: &[f64], total: f64) -> Vec<f64> {
+    let factor = total / durations.iter().sum::<f64>();
+    let plain = || durations.iter().map(|duration| duration * factor).collect();
+    let last = durations.len().saturating_sub(1);
+    let (mut end, mut before) = (0.0, 0.0);
+    let mut on_ticks = Vec::with_capacity(durations.len());
+    for (i, duration) in durations.iter().enumerate() {
+        end += duration * factor;
+        let at = if i == last { total } else { (end / TICK).round() * TICK };
+        if at - before < TICK / 2.0 {
+            return plain();
+        }
+        on_ticks.push(at - before);
+        before = at;
+    }
+    on_ticks
+}
+
+fn fastest_between_ticks(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
     let mut durations = durations_by_length(vias, 1.0);
     let mut best: Option<(f64, Vec<f64>)> = None;
     for _ in 0..ROUNDS {
