@@ -1,10 +1,8 @@
-use std::cell::Cell;
-
 use super::sheets::{Sheets, direct};
 use crate::arm::{Configuration, Posture};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
-use crate::path::{JointPath, certified_clearance, motion_bounds, sweep_is_free};
+use crate::path::{JointPath, motion_bounds, sweep_is_free};
 use crate::scene::Scene;
 use crate::search::Graph;
 
@@ -30,11 +28,9 @@ const MOST_HALVINGS: u32 = 3;
 /// Edges are certified when first asked for, and the answer is kept.
 pub(crate) struct PostureGraph<'a> {
     scene: &'a Scene,
-    sheets: Sheets,
+    sheets: Sheets<'a>,
     may_flip: bool,
     places: Vec<PlaceNode>,
-    verdicts: Vec<Cell<Verdicts>>,
-    clearances: Vec<Cell<Option<[f64; 2]>>>,
 }
 
 /// A configuration that is not over a grid point: a start or a goal.
@@ -44,20 +40,10 @@ struct PlaceNode {
     joined: Vec<(usize, f64)>,
 }
 
-/// What is known of the eight edges to the neighbours of a node on its sheet, a bit each.
-#[derive(Clone, Copy, Default)]
-struct Verdicts {
-    known: u8,
-    free: u8,
-}
-
 impl<'a> PostureGraph<'a> {
     /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
-    pub(crate) fn new(scene: &'a Scene, space: &FreeSpace, may_flip: bool) -> Self {
-        let sheets = Sheets::new(&scene.arm, &scene.grid, space);
-        let verdicts = vec![Cell::new(Verdicts::default()); sheets.len()];
-        let clearances = vec![Cell::new(None); sheets.len()];
-        Self { scene, sheets, may_flip, places: Vec::new(), verdicts, clearances }
+    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool) -> Self {
+        Self { scene, sheets: Sheets::new(scene, space), may_flip, places: Vec::new() }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
@@ -69,9 +55,9 @@ impl<'a> PostureGraph<'a> {
         for cell in self.scene.grid.corners(tip) {
             for other in self.sheets.over(cell) {
                 if let Some(to) = self.sheets.configuration(other)
-                    && self.is_certified(&q, to)
+                    && self.is_certified(&q, &to)
                 {
-                    joined.push((other, self.cost(tip, self.scene.grid.point(cell), &q, to)));
+                    joined.push((other, self.cost(tip, self.scene.grid.point(cell), &q, &to)));
                 }
             }
         }
@@ -90,10 +76,10 @@ impl<'a> PostureGraph<'a> {
     }
 
     /// The configuration at `node`, which must be free.
-    pub(crate) fn configuration(&self, node: usize) -> Option<&Configuration<2>> {
+    pub(crate) fn configuration(&self, node: usize) -> Option<Configuration<2>> {
         match node.checked_sub(self.sheets.len()) {
             None => self.sheets.configuration(node),
-            Some(i) => Some(&self.places[i].q),
+            Some(i) => Some(self.places[i].q),
         }
     }
 
@@ -114,13 +100,13 @@ impl<'a> PostureGraph<'a> {
             if let Some(from) = places.last().copied() {
                 let mut between = Vec::new();
                 // Rounding may refuse in this direction what was certified in the other; the verifier decides.
-                if self.connect(&from, to, MOST_HALVINGS, &mut between) {
+                if self.connect(&from, &to, MOST_HALVINGS, &mut between) {
                     places.extend(between);
                 }
                 let last = places.last().copied().unwrap_or(from);
-                places.push(direct(&self.scene.arm, &last, to)?);
+                places.push(direct(&self.scene.arm, &last, &to)?);
             } else {
-                places.push(*to);
+                places.push(to);
             }
         }
         Some(JointPath(places))
@@ -190,45 +176,24 @@ impl<'a> PostureGraph<'a> {
     /// Whether the edge from `node` to its neighbour `other` on the sheet is certified; `direction` is the
     /// neighbour's place around it.
     fn sheet_edge(&self, node: usize, other: usize, direction: usize, q: &Configuration<2>) -> bool {
-        let bit = 1 << direction;
-        let verdicts = self.verdicts[node].get();
-        if verdicts.known & bit != 0 {
-            return verdicts.free & bit != 0;
-        }
-        let free = self
-            .sheets
-            .configuration(other)
-            .is_some_and(|to| self.is_clear_at_a_glance((node, q), (other, to)) || self.is_certified(q, to));
-        self.keep(node, bit, free);
-        // Directions go once round, so the way back is four further.
-        self.keep(other, 1 << ((direction + 4) % 8), free);
-        free
+        self.sheets.edge(node, direction).unwrap_or_else(|| {
+            let certified = self.sheets.configuration(other).is_some_and(|to| {
+                self.is_clear_at_a_glance((node, q), (other, &to)) || self.is_certified(q, &to)
+            });
+            self.sheets.keep_edge(node, direction, certified);
+            // Directions go once round, so the way back is four further.
+            self.sheets.keep_edge(other, (direction + 4) % 8, certified);
+            certified
+        })
     }
 
     /// Whether the clearances at both ends are enough to certify the straight turn between two nodes of a sheet.
     fn is_clear_at_a_glance(&self, from: (usize, &Configuration<2>), to: (usize, &Configuration<2>)) -> bool {
         let arm = &self.scene.arm;
-        direct(arm, from.1, to.1).is_some_and(|end| {
-            let bounds = motion_bounds(arm, from.1, &end);
-            let (a, b) = (self.clearance(from.0, from.1), self.clearance(to.0, to.1));
-            (0..2).all(|link| a[link] + b[link] > bounds[link])
-        })
-    }
-
-    /// Clearance of each link at `node` beyond what is to be kept (m).
-    fn clearance(&self, node: usize, q: &Configuration<2>) -> [f64; 2] {
-        self.clearances[node].get().unwrap_or_else(|| {
-            let found = certified_clearance(self.scene, q);
-            self.clearances[node].set(Some(found));
-            found
-        })
-    }
-
-    fn keep(&self, node: usize, bit: u8, free: bool) {
-        let mut verdicts = self.verdicts[node].get();
-        verdicts.known |= bit;
-        verdicts.free |= if free { bit } else { 0 };
-        self.verdicts[node].set(verdicts);
+        let clearances = (self.sheets.clearance(from.0), self.sheets.clearance(to.0));
+        let ((Some(a), Some(b)), Some(end)) = (clearances, direct(arm, from.1, to.1)) else { return false };
+        let bounds = motion_bounds(arm, from.1, &end);
+        (0..2).all(|link| a[link] + b[link] > bounds[link])
     }
 
     /// Edges from `node` to other sheets, over `cell` itself or a neighbour: to another turn of the same
@@ -241,23 +206,23 @@ impl<'a> PostureGraph<'a> {
         visit: &mut impl FnMut(usize, f64),
     ) {
         let (from, to) = (self.tip(node), self.scene.grid.point(cell));
-        let near_edge = || self.may_flip && self.to_edge(from).max(self.to_edge(to)) <= self.flip_band();
+        let may_flip = self.may_flip_at(from) && self.may_flip_at(to);
         for other in self.sheets.over(cell) {
-            if self.sheets.same_sheet(node, other) || !(self.sheets.same_posture(node, other) || near_edge())
-            {
+            if self.sheets.same_sheet(node, other) || !(may_flip || self.sheets.same_posture(node, other)) {
                 continue;
             }
             let Some(target) = self.sheets.configuration(other) else { continue };
             // One order for both ways, so that rounding cannot make an edge one-way.
-            let (a, b) = if node < other { (q, target) } else { (target, q) };
+            let (a, b) = if node < other { (q, &target) } else { (&target, q) };
             if self.is_certified(a, b) {
-                visit(other, self.cost(from, to, q, target));
+                visit(other, self.cost(from, to, q, &target));
             }
         }
     }
 
-    fn flip_band(&self) -> f64 {
-        FLIP_BAND * self.scene.grid.step()
+    /// Whether the posture may be changed with the tip near `tip`.
+    fn may_flip_at(&self, tip: Point) -> bool {
+        self.may_flip && self.to_edge(tip) <= FLIP_BAND * self.scene.grid.step()
     }
 }
 
@@ -274,14 +239,20 @@ impl Graph for PostureGraph<'_> {
         let Some(q) = self.sheets.configuration(node) else { return };
         let cell = self.sheets.cell(node);
         let sheet = node - cell;
-        self.visit_across(node, q, cell, &mut visit);
+        // Both ends of a flip have to be near the edge of the reach.
+        let crosses = self.sheets.several_per_posture() || self.may_flip_at(self.scene.grid.point(cell));
+        if crosses {
+            self.visit_across(node, &q, cell, &mut visit);
+        }
         for direction in 0..8 {
             let Some(neighbour) = self.scene.grid.neighbour(cell, direction) else { continue };
             let other = sheet + neighbour;
-            if self.sheet_edge(node, other, direction, q) {
+            if self.sheet_edge(node, other, direction, &q) {
                 visit(other, self.scene.grid.neighbour_distance(direction));
             }
-            self.visit_across(node, q, neighbour, &mut visit);
+            if crosses {
+                self.visit_across(node, &q, neighbour, &mut visit);
+            }
         }
         for (i, place) in self.places.iter().enumerate() {
             for &(other, cost) in &place.joined {
