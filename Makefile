@@ -2,7 +2,7 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
-.PHONY: demo test setup bench clean
+.PHONY: demo test setup bench tables clean
 
 demo: setup
 	$(BIN)/elbowroom paper --out out/paper
@@ -14,11 +14,15 @@ test: setup
 	cargo clippy -p elbowroom --lib --no-default-features -- -D warnings
 	cargo test --workspace --quiet
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
-	$(BIN)/ruff format --check python tests
-	$(BIN)/ruff check python tests
+	$(BIN)/ruff format --check python tests bench
+	$(BIN)/ruff check python tests bench
 	$(BIN)/mypy
 	MYPYPATH=python $(BIN)/python -m mypy.stubtest elbowroom._core
 	$(BIN)/python -m pytest
+
+# The tables of docs/ that our own planners make.
+tables: setup
+	$(BIN)/python bench/objectives.py
 
 bench:
 	cargo bench --workspace

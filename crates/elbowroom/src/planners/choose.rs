@@ -1,4 +1,4 @@
-//! Which of several paths the arm pays least for.
+//! Which of many paths are worth being made into motions.
 
 use super::settings::Objective;
 use crate::arm::Configuration;
@@ -6,32 +6,31 @@ use crate::path::{JointPath, link_clearances, simplify};
 use crate::scene::Scene;
 use crate::trajectory::{SpeedLimits, fastest_durations, vias_at};
 
-/// Paths whose price differs by less than this share are the same to the objective: clearance decides.
+/// Paths whose price differs by no more than about this share are the same to the objective: clearance decides.
 const SAME_PRICE: f64 = 1e-9;
 
-/// The path of least price; among equal ones that with the most clearance, then the first.
-pub(crate) fn cheapest(
+/// The `most` paths of least price, cheapest first; among equal ones those with more clearance, then earlier ones.
+pub(crate) fn shortlist(
     scene: &Scene,
     limits: &[SpeedLimits; 2],
     objective: Objective,
     paths: Vec<(f64, JointPath)>,
-) -> Option<(f64, JointPath)> {
-    let mut best: Option<(f64, f64, f64, JointPath)> = None;
-    for (tip_cost, path) in paths {
-        let price = match objective {
-            Objective::Tip => tip_cost,
-            Objective::Joint => JointPath(corners(scene, &path)).length(),
-            Objective::Time => fastest_durations(&vias_at(&corners(scene, &path)), limits).iter().sum(),
-        };
-        let better = |known: f64, known_clearance: f64| {
-            let slack = SAME_PRICE * known;
-            price < known - slack || (price <= known + slack && clearance(scene, &path) > known_clearance)
-        };
-        if best.as_ref().is_none_or(|&(known, known_clearance, ..)| better(known, known_clearance)) {
-            best = Some((price, clearance(scene, &path), tip_cost, path));
-        }
-    }
-    best.map(|(_, _, tip_cost, path)| (tip_cost, path))
+    most: usize,
+) -> Vec<(f64, JointPath)> {
+    let price = |tip_cost: f64, path: &JointPath| match objective {
+        Objective::Tip => tip_cost,
+        Objective::Joint => JointPath(corners(scene, path)).length(),
+        Objective::Time => fastest_durations(&vias_at(&corners(scene, path)), limits).iter().sum(),
+    };
+    let mut priced: Vec<(f64, f64, (f64, JointPath))> = paths
+        .into_iter()
+        .map(|(tip_cost, path)| (price(tip_cost, &path), clearance(scene, &path), (tip_cost, path)))
+        .collect();
+    let least = priced.iter().map(|(price, ..)| *price).fold(f64::INFINITY, f64::min);
+    // Steps of rounding's size, so that sums of the same steps in another order are the same price.
+    let step = |price: f64| (price / (SAME_PRICE * least.max(f64::MIN_POSITIVE))).round();
+    priced.sort_by(|a, b| step(a.0).total_cmp(&step(b.0)).then(b.1.total_cmp(&a.1)));
+    priced.into_iter().map(|(_, _, path)| path).take(most).collect()
 }
 
 /// The path without the grid's zigzag, which no motion through it keeps.

@@ -1,6 +1,6 @@
 //! Planning on places and postures: what comes out is a motion that the verifier has proved to be safe.
 
-use super::choose::cheapest;
+use super::choose::shortlist;
 use super::limits::{motion_limits, stated_limits};
 use super::posture_graph::PostureGraph;
 use super::problem::Problem;
@@ -14,6 +14,8 @@ use crate::path::JointPath;
 use crate::scene::{Scene, Task};
 use crate::search::{Dstar, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
+use crate::trajectory::SpeedLimits;
+use crate::verify::Trajectory;
 
 /// Expansions of D* between two looks at the monitor: a few milliseconds.
 const EXPANSIONS_PER_LOOK: usize = 1_000;
@@ -21,7 +23,10 @@ const EXPANSIONS_PER_LOOK: usize = 1_000;
 /// By how much a tip path may be longer than the shortest and still be chosen for what the arm pays, as a share.
 pub const NEARLY_EQUAL: f64 = 0.01;
 
-/// Path costs that differ by less than this share are the same: sums of the same steps in another order.
+/// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
+const SHORTLIST: usize = 8;
+
+/// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
 /// Plans `task`: a path over (place, posture) whose every step is certified free, and a motion along it that the
@@ -40,44 +45,74 @@ pub fn plan(
     let (limits, assumed_limits) = motion_limits(&scene.arm);
 
     let found = match problem.already_there() {
-        Some(q) => Found { cost: 0.0, path: JointPath(vec![q]), paths: 1 },
+        Some(q) => Found { candidates: vec![(0.0, JointPath(vec![q]))], paths: 1 },
         None => shortest(scene, &problem, settings, &limits, monitor)?,
     };
 
     monitor.stage(Stage::Trajectory);
     let stated = stated_limits(&scene.arm);
-    let smoothed = smooth(scene, &found.path, &limits, &stated, settings.pace, monitor).map_err(|error| {
-        match (error, settings.pace) {
-            (SmoothError::TooFast { fastest }, Pace::Duration(duration)) => {
-                PlanError::TooFast { duration, fastest }
+    let mut best: Option<Plan> = None;
+    let mut refused = PlanError::Stopped;
+    for (path_cost, joint_path) in found.candidates {
+        let smoothed = match smooth(scene, &joint_path, &limits, &stated, settings.pace, monitor) {
+            Ok(smoothed) => smoothed,
+            Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
+            Err(error) => {
+                refused = in_terms_of(settings.pace, error);
+                continue;
             }
-            (SmoothError::Motion(error), _) => error.into(),
-            (SmoothError::Refused(verdict), _) => PlanError::Refused(verdict),
-            (SmoothError::Stopped | SmoothError::TooFast { .. }, _) => PlanError::Stopped,
+        };
+        let cost = cost(scene, settings.objective, &smoothed.trajectory);
+        let clearance = |trajectory: &Trajectory| {
+            trajectory.verdict().least_clearance.map_or(f64::INFINITY, |least| least.distance)
+        };
+        let better = best.as_ref().is_none_or(|known| {
+            let slack = SAME_COST * known.cost;
+            cost < known.cost - slack
+                || (cost <= known.cost + slack
+                    && clearance(&smoothed.trajectory) > clearance(&known.trajectory))
+        });
+        if better {
+            best = Some(Plan {
+                cost,
+                path_cost,
+                paths_to_choose_from: found.paths,
+                tip_path: joint_path.tips(&scene.arm),
+                joint_path,
+                vias: smoothed.vias,
+                stops: smoothed.stops,
+                trajectory: smoothed.trajectory,
+                assumed_limits: assumed_limits.clone(),
+            });
         }
-    })?;
-    let cost = match settings.objective {
-        Objective::Tip => smoothed.trajectory.motion().tip_length(&scene.arm),
-        Objective::Joint => smoothed.trajectory.motion().joint_length(),
-        Objective::Time => smoothed.trajectory.motion().duration(),
-    };
-    Ok(Plan {
-        cost,
-        path_cost: found.cost,
-        paths_to_choose_from: found.paths,
-        tip_path: found.path.tips(&scene.arm),
-        joint_path: found.path,
-        vias: smoothed.vias,
-        stops: smoothed.stops,
-        trajectory: smoothed.trajectory,
-        assumed_limits,
-    })
+    }
+    best.ok_or(refused)
 }
 
-/// A certified path, its tip travel (m), and how many it was chosen from.
+/// What `trajectory` costs in terms of `objective`.
+fn cost(scene: &Scene, objective: Objective, trajectory: &Trajectory) -> f64 {
+    let motion = trajectory.motion();
+    match objective {
+        Objective::Tip => motion.tip_length(&scene.arm),
+        Objective::Joint => motion.joint_length(),
+        Objective::Time => motion.duration(),
+    }
+}
+
+fn in_terms_of(pace: Pace, error: SmoothError) -> PlanError {
+    match (error, pace) {
+        (SmoothError::TooFast { fastest }, Pace::Duration(duration)) => {
+            PlanError::TooFast { duration, fastest }
+        }
+        (SmoothError::Motion(error), _) => error.into(),
+        (SmoothError::Refused(verdict), _) => PlanError::Refused(verdict),
+        (SmoothError::Stopped | SmoothError::TooFast { .. }, _) => PlanError::Stopped,
+    }
+}
+
+/// Certified paths with their tip travel (m), and how many they were chosen from.
 struct Found {
-    cost: f64,
-    path: JointPath,
+    candidates: Vec<(f64, JointPath)>,
     paths: usize,
 }
 
@@ -85,7 +120,7 @@ fn shortest(
     scene: &Scene,
     problem: &Problem,
     settings: &PlanSettings,
-    limits: &[crate::trajectory::SpeedLimits; 2],
+    limits: &[SpeedLimits; 2],
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
     let not_found = || PlanError::NotFound { step: scene.grid.step() };
@@ -118,10 +153,10 @@ fn shortest(
         Objective::Joint | Objective::Time => NEARLY_EQUAL,
     };
     let worth_it = starts.iter().filter(|&&start| field.cost_to_go(start) <= least * (1.0 + slack));
+    let mut own: Vec<(f64, Vec<usize>)> = Vec::new();
     let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
     for &start in worth_it {
-        // The swarm starts from what D* knows: where it cannot do better it does no worse.
-        drawn.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
+        own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
         match &settings.method {
             Method::Dstar => {}
             Method::DstarPso(swarm) => {
@@ -144,15 +179,18 @@ fn shortest(
     }
 
     monitor.stage(Stage::JointPath);
-    drawn.retain(|(cost, _)| *cost <= least * (1.0 + slack.max(SAME_COST)));
-    let paths = drawn.len();
-    let candidates = drawn
-        .into_iter()
-        .map(|(cost, nodes)| Some((cost, graph.joint_path(&nodes)?)))
-        .collect::<Option<Vec<(f64, JointPath)>>>()
-        .ok_or_else(not_found)?;
-    let (cost, path) = cheapest(scene, limits, settings.objective, candidates).ok_or_else(not_found)?;
-    Ok(Found { cost, path, paths })
+    drawn.retain(|(cost, nodes)| {
+        *cost <= least * (1.0 + slack.max(SAME_COST)) && own.iter().all(|(_, known)| known != nodes)
+    });
+    let paths = own.len() + drawn.len();
+    let joined = |paths: Vec<(f64, Vec<usize>)>| {
+        let joined = paths.into_iter().map(|(cost, nodes)| Some((cost, graph.joint_path(&nodes)?)));
+        joined.collect::<Option<Vec<(f64, JointPath)>>>().ok_or_else(not_found)
+    };
+    // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
+    let mut candidates = joined(own)?;
+    candidates.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
+    Ok(Found { candidates, paths })
 }
 
 fn check(settings: &PlanSettings) -> Result<(), PlanError> {
