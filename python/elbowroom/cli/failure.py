@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -28,6 +29,10 @@ def reported() -> Iterator[None]:
     except ElbowroomError as error:
         tell(str(error))
         raise typer.Exit(BAD_INPUT) from None
+    except BrokenPipeError:
+        # Whoever read our output has had enough; so that Python does not complain again at its end:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise typer.Exit(DONE) from None
     except OSError as error:
         tell(f"{error.filename or 'file'}: {error.strerror or error}")
         raise typer.Exit(BAD_INPUT) from None
