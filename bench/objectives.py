@@ -93,7 +93,7 @@ def main() -> None:
     text = [
         "# What the swarm gains",
         "",
-        "D* alone gives one shortest grid path. The swarm draws many that are as short, or nearly (within 1 %), and the",
+        "D* alone gives one shortest grid path. The swarm draws many as short, or nearly (within 1 %), and the",
         "planner makes verified motions of the eight that promise most, and of D*'s own, and takes the one the arm",
         "pays least for; among equals the one with the most clearance. Costs are those of the motion, smoothed and",
         f"timed. Made by `make tables`: {options.seeds} seeds, default settings; limits a scene does not state are",
