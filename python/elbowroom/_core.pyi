@@ -136,7 +136,7 @@ def plan(
     scene: Scene,
     task: str,
     *,
-    swarm: bool,
+    planner: str,
     objective: str,
     seed: int,
     candidates: int,

@@ -15,7 +15,8 @@ from elbowroom.errors import BadSetting, NotFree, UnknownTask
 from elbowroom.scene import Scene
 from elbowroom.verdict import Verdict
 
-Planner = Literal["dstar-pso", "dstar"]
+PaperPlanner = Literal["dstar-pso", "dstar"]
+Planner = Literal["dstar-pso", "dstar", "optimal"]
 Objective = Literal["tip", "joint", "time"]
 Floats = NDArray[np.float64]
 
@@ -131,7 +132,8 @@ def plan(
     Args:
         scene: Arm and obstacles.
         task: Which one; may be left out if there is only one.
-        planner: ``dstar-pso``, which chooses among the paths that a swarm draws, or ``dstar``, the pointers alone.
+        planner: ``dstar-pso``, which chooses among the paths that a swarm draws; ``dstar``, the pointers alone; or
+            ``optimal``, which leaves the grid and pulls its paths taut.
         objective: What the choice goes by: ``tip`` travel, ``joint`` travel or ``time``.
         seed: Of the swarm.
         candidates: Paths the swarm draws.
@@ -146,14 +148,13 @@ def plan(
         TimedOut: The timeout came first.
         BadSetting: A setting makes no sense, or the duration is too short for the motion limits.
     """
-    _check_planner(planner)
     _check_counts(seed=seed, candidates=candidates)
     task = only_task(scene, task)
     try:
         found = _core.plan(
             scene.core,
             task,
-            swarm=planner == "dstar-pso",
+            planner=planner,
             objective=objective,
             seed=seed,
             candidates=candidates,
@@ -191,11 +192,6 @@ def plan(
     )
 
 
-def _check_planner(planner: str) -> None:
-    if planner not in ("dstar-pso", "dstar"):
-        raise BadSetting(f"no planner is called '{planner}'; dstar-pso or dstar", setting="planner")
-
-
 def _check_counts(**counts: int) -> None:
     for name, number in counts.items():
         least = 1 if name == "candidates" else 0
@@ -207,7 +203,7 @@ def plan_as_in_paper(
     scene: Scene,
     *,
     task: str | None = None,
-    planner: Planner = "dstar-pso",
+    planner: PaperPlanner = "dstar-pso",
     seed: int = 0,
     vias: int = 5,
     duration: float = 10.0,
@@ -238,7 +234,8 @@ def plan_as_in_paper(
         TimedOut: The timeout came first.
         BadSetting: A setting makes no sense.
     """
-    _check_planner(planner)
+    if planner not in ("dstar-pso", "dstar"):
+        raise BadSetting(f"no planner is called '{planner}'; dstar-pso or dstar", setting="planner")
     _check_counts(seed=seed, vias=vias, candidates=candidates)
     task = only_task(scene, task)
     try:

@@ -1,4 +1,4 @@
-use elbowroom::planners::{self, Method, Objective, Pace, PlanSettings};
+use elbowroom::planners::{self, Objective, Pace, PlanSettings, Planner};
 use elbowroom::swarm::GuidedSwarmSettings;
 use numpy::PyArray2;
 use pyo3::prelude::*;
@@ -101,13 +101,13 @@ impl Plan {
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense, or the duration is too short.
 #[pyfunction]
-#[pyo3(signature = (scene, task, *, swarm, objective, seed, candidates, duration=None, timeout=None, on_stage=None))]
+#[pyo3(signature = (scene, task, *, planner, objective, seed, candidates, duration=None, timeout=None, on_stage=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
     scene: &Scene,
     task: &str,
-    swarm: bool,
+    planner: &str,
     objective: &str,
     seed: u64,
     candidates: usize,
@@ -126,13 +126,19 @@ pub(crate) fn plan(
                 &format!("no objective is called '{objective}'; tip, joint or time"),
             )
         })?;
-    let method = if swarm {
-        Method::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
-    } else {
-        Method::Dstar
+    let planner = match planner {
+        "dstar" => Planner::Dstar,
+        "dstar-pso" => {
+            Planner::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
+        }
+        "optimal" => Planner::Optimal,
+        other => {
+            let message = format!("no planner is called '{other}'; dstar-pso, dstar or optimal");
+            return Err(errors::setting(py, "planner", &message));
+        }
     };
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let settings = PlanSettings { method, objective, pace, seed };
+    let settings = PlanSettings { planner, objective, pace, seed };
     let work = |watch: &watch::Watch| planners::plan(&scene.0, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;

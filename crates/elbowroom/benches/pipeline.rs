@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use elbowroom::planners::{Method, PaperSettings, PlanSettings, Unwatched, plan, plan_as_in_paper};
+use elbowroom::planners::{Method, PaperSettings, PlanSettings, Planner, Unwatched, plan, plan_as_in_paper};
 use elbowroom::scene::parse;
 use elbowroom::swarm::GuidedSwarmSettings;
 
@@ -24,7 +24,11 @@ fn pipeline(c: &mut Criterion) {
             group.bench_function(BenchmarkId::new(format!("paper, {name}"), &task.name), |b| {
                 b.iter(|| plan_as_in_paper(black_box(&scene), task, &settings, &Unwatched));
             });
-            let settings = PlanSettings { method, ..PlanSettings::default() };
+            let planner = match method {
+                Method::Dstar => Planner::Dstar,
+                Method::DstarPso(swarm) => Planner::DstarPso(swarm),
+            };
+            let settings = PlanSettings { planner, ..PlanSettings::default() };
             let found = plan(&scene, task, &settings, &Unwatched).expect("there is a path");
             assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
             group.bench_function(BenchmarkId::new(format!("verified, {name}"), &task.name), |b| {

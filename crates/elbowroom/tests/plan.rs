@@ -12,7 +12,7 @@ use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, Posture, T
 use elbowroom::geometry::{Circle, Point};
 use elbowroom::grid::Grid;
 use elbowroom::planners::{
-    ASSUMED_LIMITS, Method, Objective, Pace, Plan, PlanError, PlanSettings, Unwatched, plan,
+    ASSUMED_LIMITS, Objective, Pace, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
 };
 use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
 use elbowroom::swarm::GuidedSwarmSettings;
@@ -55,7 +55,7 @@ fn run(scene: &Scene, settings: &PlanSettings) -> Result<Plan, PlanError> {
 }
 
 fn dstar() -> PlanSettings {
-    PlanSettings { method: Method::Dstar, ..PlanSettings::default() }
+    PlanSettings { planner: Planner::Dstar, ..PlanSettings::default() }
 }
 
 /// Whether the tip or the joints are where `place` says at `q`.
@@ -107,8 +107,12 @@ fn motions_in_random_worlds_are_safe_by_another_judge() {
         let Some(scene) = worlds::world(seed) else { continue };
         let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
         let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
-        let method = if seed % 2 == 0 { Method::Dstar } else { Method::DstarPso(swarm) };
-        match run(&scene, &PlanSettings { method, objective, seed, ..PlanSettings::default() }) {
+        let planner = match seed % 20 {
+            0 => Planner::Optimal,
+            1..=9 => Planner::Dstar,
+            _ => Planner::DstarPso(swarm),
+        };
+        match run(&scene, &PlanSettings { planner, objective, seed, ..PlanSettings::default() }) {
             Ok(plan) => {
                 planned += 1;
                 assert_true(&scene, &scene.tasks[0], &plan);
@@ -151,6 +155,45 @@ fn the_swarm_does_no_worse_than_dstar_by_what_it_was_asked_for() {
                 .collect();
             assert!(costs.iter().all(|cost| *cost <= alone.cost * (1.0 + 1e-9)), "{costs:?} {}", alone.cost);
         }
+    }
+}
+
+#[test]
+fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
+    let narrow = include_str!("../../../python/elbowroom/scenes/narrow.yaml");
+    let standin = include_str!("../../../python/elbowroom/scenes/paper-standin.yaml");
+    // Joint 1 continuous, then between stops: found by a 0.2 degree joint grid with shortcuts.
+    let known = [(standin, [[PI, 3.4454], [PI, 4.8746]]), (narrow, [[4.1906, 3.5240], [4.9238, 5.7470]])];
+    for (text, known) in known {
+        for (limits, known) in [JointLimits::Continuous, with_stops()].into_iter().zip(known) {
+            let mut scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene;
+            let mut joints = *scene.arm.joints();
+            joints[0].limits = limits;
+            scene.arm = TwoLinkArm::new(scene.arm.base(), scene.arm.lengths(), 0.0, joints).unwrap();
+            for (index, known) in known.into_iter().enumerate() {
+                scene.tasks.swap(0, index);
+                let settings = PlanSettings {
+                    planner: Planner::Optimal,
+                    objective: Objective::Joint,
+                    ..PlanSettings::default()
+                };
+                let plan = run(&scene, &settings).unwrap();
+                scene.tasks.swap(0, index);
+                assert!(plan.cost <= 1.01 * known, "{} for {known}", plan.cost);
+            }
+        }
+    }
+}
+
+#[test]
+fn optimal_follows_the_hole_of_the_paper_s_ring_by_a_tangent_and_an_arc() {
+    let text = include_str!("../../../python/elbowroom/scenes/paper-empty.yaml");
+    let scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene;
+    for (index, length) in [1.16287, 0.80496].into_iter().enumerate() {
+        let settings = PlanSettings { planner: Planner::Optimal, ..PlanSettings::default() };
+        let plan = plan(&scene, &scene.tasks[index], &settings, &Unwatched).unwrap();
+        assert!((length - 1e-5..=1.005 * length).contains(&plan.cost), "{}", plan.cost);
+        assert_true(&scene, &scene.tasks[index], &plan);
     }
 }
 

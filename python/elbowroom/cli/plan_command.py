@@ -13,7 +13,7 @@ from elbowroom.cli.failure import reported
 def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
-    planner: Annotated[str, typer.Option(help="dstar-pso or dstar.")] = "dstar-pso",
+    planner: Annotated[str, typer.Option(help="dstar-pso, dstar or optimal.")] = "dstar-pso",
     objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
     seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,

@@ -9,5 +9,7 @@ mod tip_path;
 pub use follow::{FollowError, Followed, Jump, JumpKind, follow};
 pub use joint_path::JointPath;
 pub use simplify::simplify;
-pub use sweep::{CERTIFIED_CLEARANCE, certified_clearance, link_clearances, motion_bounds, sweep_is_free};
+pub use sweep::{
+    CERTIFIED_CLEARANCE, certified_clearance, link_clearances, motion_bounds, sweep_is_free, sweep_keeps,
+};
 pub use tip_path::TipPath;

@@ -12,21 +12,40 @@ pub const CERTIFIED_CLEARANCE: f64 = 2e-9;
 /// that stays within 8e-6 m of an obstacle all along may use them up, one that only passes by does not.
 const MOST_LOOKS: u32 = 1 << 17;
 
+/// The same where a refusal costs little.
+const FEWER_LOOKS: u32 = 1 << 10;
+
 /// Whether both links stay clear of every obstacle while each joint turns evenly from `from` to `to`.
 ///
 /// By bisection with a bound on the motion: over a stretch whose points move by no more than `b`, a link
 /// that is clear by `c0` at one end and `c1` at the other is clear all the way if `c0 + c1 > b`. `false`
-/// also when a clearance comes down to [`CERTIFIED_CLEARANCE`], or cannot be told from it in bounded work. Joint limits are not looked at: between
-/// two configurations within them there is no other.
+/// also when a clearance comes down to [`CERTIFIED_CLEARANCE`], or cannot be told from it in bounded work. Joint limits
+/// are not looked at: between two configurations within them there is no other.
 ///
 /// # Reference
 /// Schwarzer, Saha and Latombe, *Adaptive dynamic collision checking*, IEEE T-RO 21(3), 2005.
 pub fn sweep_is_free(scene: &Scene, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+    sweep(scene, from, to, 0.0, MOST_LOOKS)
+}
+
+/// [`sweep_is_free`] with `margin` (m) more clearance, and given up sooner: for turns that would be nice to have.
+pub fn sweep_keeps(scene: &Scene, from: &Configuration<2>, to: &Configuration<2>, margin: f64) -> bool {
+    sweep(scene, from, to, margin, FEWER_LOOKS)
+}
+
+fn sweep(
+    scene: &Scene,
+    from: &Configuration<2>,
+    to: &Configuration<2>,
+    margin: f64,
+    most_looks: u32,
+) -> bool {
     let ends = [Pose::of(&scene.arm, from), Pose::of(&scene.arm, to)];
     let bounds = motion_bounds(&scene.arm, from, to);
     scene.obstacles.iter().all(|obstacle| {
         (0..2).all(|link| {
-            let mut sweep = LinkSweep { arm: &scene.arm, obstacle, link, looks_left: MOST_LOOKS };
+            let kept = CERTIFIED_CLEARANCE + margin;
+            let mut sweep = LinkSweep { arm: &scene.arm, obstacle, link, kept, looks_left: most_looks };
             sweep.is_free(&ends[0], &ends[1], bounds[link])
         })
     })
@@ -72,6 +91,8 @@ struct LinkSweep<'a> {
     arm: &'a TwoLinkArm,
     obstacle: &'a Obstacle,
     link: usize,
+    /// Clearance that has to be left (m).
+    kept: f64,
     looks_left: u32,
 }
 
@@ -83,7 +104,7 @@ impl LinkSweep<'_> {
 
     /// Clearance beyond what is to be kept (m).
     fn clearance(&self, pose: &Pose) -> f64 {
-        self.obstacle.distance_to_segment(pose.links[self.link]) - self.arm.half_width() - CERTIFIED_CLEARANCE
+        self.obstacle.distance_to_segment(pose.links[self.link]) - self.arm.half_width() - self.kept
     }
 
     /// `bound` is how far a point of the link moves between the two poses; halves on every level, so the

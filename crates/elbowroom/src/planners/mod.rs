@@ -1,13 +1,16 @@
 //! From a task to a plan.
 
 mod choose;
+mod joint_grid;
 mod limits;
 mod monitor;
+mod optimal;
 mod paper;
 mod plan;
 mod posture_graph;
 mod posture_true;
 mod problem;
+mod pull;
 mod settings;
 mod sheets;
 mod smooth;
@@ -15,7 +18,7 @@ mod union_graph;
 
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
-pub use paper::{PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
+pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
 pub use plan::{Plan, PlanError};
 pub use posture_true::{NEARLY_EQUAL, plan};
-pub use settings::{Method, Objective, Pace, PlanSettings};
+pub use settings::{Objective, Pace, PlanSettings, Planner};

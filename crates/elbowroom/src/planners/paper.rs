@@ -3,7 +3,6 @@
 
 use thiserror::Error;
 
-use super::settings::Method;
 use super::union_graph::UnionGraph;
 use super::{Monitor, Stage};
 use crate::arm::Configuration;
@@ -17,6 +16,15 @@ use crate::trajectory::{Motion, MotionError, durations_by_length, quintic_throug
 
 /// Expansions of D* between two looks at the monitor: a few milliseconds.
 const EXPANSIONS_PER_LOOK: usize = 10_000;
+
+/// Which path over the cost-to-go is taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// D*'s back-pointers alone.
+    Dstar,
+    /// The best of the paths that the modified lbest swarm draws.
+    DstarPso(GuidedSwarmSettings),
+}
 
 /// How the paper's system is run.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,10 +2,11 @@
 
 use super::choose::shortlist;
 use super::limits::{motion_limits, stated_limits};
+use super::optimal::{over_joints, over_tips};
 use super::posture_graph::PostureGraph;
 use super::problem::Problem;
-use super::settings::{Method, Objective, Pace, PlanSettings};
-use super::smooth::{SmoothError, smooth};
+use super::settings::{Objective, Pace, PlanSettings, Planner};
+use super::smooth::{SmoothError, Smoothed, Style, smooth};
 use super::{Monitor, Plan, PlanError, Stage};
 
 use crate::free_space::FreeSpace;
@@ -26,6 +27,15 @@ pub const NEARLY_EQUAL: f64 = 0.01;
 /// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
 const SHORTLIST: usize = 8;
 
+/// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
+const GRID_TOLERANCE: f64 = 1.0;
+
+/// The same for a taut path, which has no zigzag to lose.
+const TAUT_TOLERANCE: f64 = 0.1;
+
+/// How much less a path has to cost than its smooth motion for the arm to stop at its corners, as a share.
+const WORTH_STOPPING: f64 = 0.005;
+
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
@@ -45,16 +55,31 @@ pub fn plan(
     let (limits, assumed_limits) = motion_limits(&scene.arm);
 
     let found = match problem.already_there() {
-        Some(q) => Found { candidates: vec![(0.0, JointPath(vec![q]))], paths: 1 },
-        None => shortest(scene, &problem, settings, &limits, monitor)?,
+        Some(q) => {
+            let path = JointPath(vec![q]);
+            Found {
+                candidates: vec![Candidate { path, tip_travel: 0.0, tolerance: GRID_TOLERANCE }],
+                paths: 1,
+            }
+        }
+        None => match settings.planner {
+            Planner::Optimal => taut(scene, &problem, settings.objective, &limits, monitor)?,
+            Planner::Dstar | Planner::DstarPso(_) => shortest(scene, &problem, settings, &limits, monitor)?,
+        },
     };
 
     monitor.stage(Stage::Trajectory);
     let stated = stated_limits(&scene.arm);
     let mut best: Option<Plan> = None;
     let mut refused = PlanError::Stopped;
-    for (path_cost, joint_path) in found.candidates {
-        let smoothed = match smooth(scene, &joint_path, &limits, &stated, settings.pace, monitor) {
+    for Candidate { path: joint_path, tip_travel, tolerance } in found.candidates {
+        let flowing = Style::Flowing { tolerance };
+        let smooth = |style| smooth(scene, &joint_path, &limits, &stated, settings.pace, style, monitor);
+        let smoothed = match smooth(flowing) {
+            // Straight turns are refused only where the duration is too short for so many stops.
+            Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
+                smooth(Style::StopToStop).unwrap_or(smoothed)
+            }
             Ok(smoothed) => smoothed,
             Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
             Err(error) => {
@@ -75,7 +100,7 @@ pub fn plan(
         if better {
             best = Some(Plan {
                 cost,
-                path_cost,
+                path_cost: tip_travel,
                 paths_to_choose_from: found.paths,
                 tip_path: joint_path.tips(&scene.arm),
                 joint_path,
@@ -87,6 +112,72 @@ pub fn plan(
         }
     }
     best.ok_or(refused)
+}
+
+/// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
+fn is_worth_stopping(scene: &Scene, settings: &PlanSettings, path: &JointPath, smoothed: &Smoothed) -> bool {
+    let own = match (settings.planner, settings.objective) {
+        (Planner::Optimal, Objective::Tip) => path.tip_travel(&scene.arm),
+        (Planner::Optimal, Objective::Joint) => path.length(),
+        _ => return false,
+    };
+    own < (1.0 - WORTH_STOPPING) * cost(scene, settings.objective, &smoothed.trajectory)
+}
+
+/// Paths that leave the grid: over the joints or, for tip travel, over the tip; for time what D* finds as well, which
+/// may have fewer corners to slow down at.
+fn taut(
+    scene: &Scene,
+    problem: &Problem,
+    objective: Objective,
+    limits: &[SpeedLimits; 2],
+    monitor: &impl Monitor,
+) -> Result<Found, PlanError> {
+    let on_grid = || {
+        let settings = PlanSettings { planner: Planner::Dstar, objective, ..PlanSettings::default() };
+        match shortest(scene, problem, &settings, limits, monitor) {
+            Ok(found) => Ok(found.candidates),
+            Err(PlanError::NotFound { .. }) => Ok(Vec::new()),
+            Err(other) => Err(other),
+        }
+    };
+    let over_joints = || -> Result<Vec<Candidate>, PlanError> {
+        let paths = over_joints(scene, problem, objective, limits, monitor)?;
+        Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
+    };
+    let candidates = match objective {
+        Objective::Joint => over_joints()?,
+        Objective::Time => {
+            let mut candidates = on_grid()?;
+            match over_joints() {
+                // Corners cost time: they are kept to closely, and loosely.
+                Ok(more) => candidates.extend(more.into_iter().flat_map(|candidate| {
+                    [Candidate { tolerance: GRID_TOLERANCE, ..candidate.clone() }, candidate]
+                })),
+                Err(PlanError::NotFound { .. }) if !candidates.is_empty() => {}
+                Err(other) => return Err(other),
+            }
+            candidates
+        }
+        Objective::Tip => {
+            let mut rough = on_grid()?;
+            if rough.is_empty() {
+                rough = over_joints()?;
+            }
+            let mut candidates = Vec::new();
+            for Candidate { path, .. } in &rough {
+                let paths = over_tips(scene, path, monitor)?;
+                candidates.extend(paths.into_iter().map(|path| candidate(scene, path)));
+            }
+            candidates
+        }
+    };
+    let paths = candidates.len();
+    Ok(Found { candidates, paths })
+}
+
+fn candidate(scene: &Scene, path: JointPath) -> Candidate {
+    Candidate { tip_travel: path.tip_travel(&scene.arm), path, tolerance: TAUT_TOLERANCE }
 }
 
 /// What `trajectory` costs in terms of `objective`.
@@ -110,10 +201,20 @@ fn in_terms_of(pace: Pace, error: SmoothError) -> PlanError {
     }
 }
 
-/// Certified paths with their tip travel (m), and how many they were chosen from.
+/// Certified paths, and how many they were chosen from.
 struct Found {
-    candidates: Vec<(f64, JointPath)>,
+    candidates: Vec<Candidate>,
     paths: usize,
+}
+
+/// A certified path to make a motion of.
+#[derive(Clone)]
+struct Candidate {
+    path: JointPath,
+    /// Its tip travel (m).
+    tip_travel: f64,
+    /// How far the motion may stray from it before the verifier is asked, in grid steps.
+    tolerance: f64,
 }
 
 fn shortest(
@@ -157,9 +258,9 @@ fn shortest(
     let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        match &settings.method {
-            Method::Dstar => {}
-            Method::DstarPso(swarm) => {
+        match &settings.planner {
+            Planner::Dstar | Planner::Optimal => {}
+            Planner::DstarPso(swarm) => {
                 let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
                 let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
                 let terrain = Terrain {
@@ -188,13 +289,14 @@ fn shortest(
         joined.collect::<Option<Vec<(f64, JointPath)>>>().ok_or_else(not_found)
     };
     // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
-    let mut candidates = joined(own)?;
-    candidates.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
-    Ok(Found { candidates, paths })
+    let mut chosen = joined(own)?;
+    chosen.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
+    let candidate = |(tip_travel, path)| Candidate { path, tip_travel, tolerance: GRID_TOLERANCE };
+    Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths })
 }
 
 fn check(settings: &PlanSettings) -> Result<(), PlanError> {
-    if let Method::DstarPso(swarm) = &settings.method {
+    if let Planner::DstarPso(swarm) = &settings.planner {
         swarm.check()?;
     }
     match settings.pace {

@@ -1,12 +1,14 @@
 use crate::swarm::GuidedSwarmSettings;
 
-/// Which path over the cost-to-go is taken.
+/// How a path is found.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Method {
-    /// D*'s back-pointers alone.
+pub enum Planner {
+    /// D*'s back-pointers alone, over grid points and postures.
     Dstar,
-    /// The best of the paths that the modified lbest swarm draws.
+    /// The best of the paths that the modified lbest swarm draws there.
     DstarPso(GuidedSwarmSettings),
+    /// Taut paths that leave the grid.
+    Optimal,
 }
 
 /// What a motion shall cost little of.
@@ -46,7 +48,7 @@ pub enum Pace {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanSettings {
     /// How the path is found.
-    pub method: Method,
+    pub planner: Planner,
     /// What the choice among paths goes by.
     pub objective: Objective,
     /// How long the motion takes.
@@ -58,7 +60,7 @@ pub struct PlanSettings {
 impl Default for PlanSettings {
     fn default() -> Self {
         Self {
-            method: Method::DstarPso(GuidedSwarmSettings::default()),
+            planner: Planner::DstarPso(GuidedSwarmSettings::default()),
             objective: Objective::default(),
             pace: Pace::default(),
             seed: 0,

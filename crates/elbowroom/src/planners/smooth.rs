@@ -9,12 +9,20 @@ use crate::trajectory::{
 };
 use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 
-/// How far elbow and tip may stray from the path before the verifier is asked, in grid steps: from here vias are
-/// added only where it refuses.
-const FIRST_TOLERANCE: f64 = 1.0;
-
 /// Rounds of adding vias; after them every refused stretch becomes straight turns from stop to stop.
 const ROUNDS: usize = 24;
+
+/// How a motion begins as.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Style {
+    /// Through as few vias as keep elbow and tip this near to the path, in grid steps; more where the verifier refuses.
+    Flowing {
+        /// In grid steps.
+        tolerance: f64,
+    },
+    /// The path itself: straight turns from place to place, with a stop at each.
+    StopToStop,
+}
 
 /// How a motion came to be.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,11 +57,16 @@ pub(crate) fn smooth(
     limits: &[SpeedLimits; 2],
     stated: &[SpeedLimits; 2],
     pace: Pace,
+    style: Style,
     monitor: &impl Monitor,
 ) -> Result<Smoothed, SmoothError> {
     let places = &path.0;
-    let mut chosen = simplify(&scene.arm, path, FIRST_TOLERANCE * scene.grid.step());
-    let mut stops = vec![false; places.len()];
+    let (mut chosen, mut stops) = match style {
+        Style::Flowing { tolerance } => {
+            (simplify(&scene.arm, path, tolerance * scene.grid.step()), vec![false; places.len()])
+        }
+        Style::StopToStop => ((0..places.len()).collect(), vec![true; places.len()]),
+    };
     for end in [0, places.len() - 1] {
         stops[end] = true;
     }
