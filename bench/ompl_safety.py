@@ -201,11 +201,12 @@ def ompl_setup(world: World, resolution: float | None) -> og.SimpleSetup:
         information.setMotionValidator(ContinuousValidator(information, world))
     else:
         information.setStateValidityCheckingResolution(resolution)
-    setup.setStartAndGoalStates(_state(space, world.start), _state(space, world.goal))
+    setup.setStartAndGoalStates(state(space, world.start), state(space, world.goal))
     return setup
 
 
-def _state(space: ob.StateSpace, q: Floats) -> ob.State:
+def state(space: ob.StateSpace, q: Floats) -> ob.State:
+    """Return a configuration as a state of OMPL."""
     state = space.allocState()
     state[0].value = math.remainder(q[0], math.tau)
     state[1][0] = float(q[1])
@@ -231,7 +232,7 @@ def ompl_accepts(world: World, corners: Floats, resolution: float) -> bool:
     setup.setup()
     path = og.PathGeometric(setup.getSpaceInformation())
     for q in corners:
-        path.append(_state(setup.getStateSpace(), q))
+        path.append(state(setup.getStateSpace(), q))
     return bool(path.check())
 
 
