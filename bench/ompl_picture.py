@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,7 @@ def checked_states(world: World, corners: Floats) -> Floats:
     setup.setup()
     space = setup.getStateSpace()
     states = [corners[:1]]
-    for first, last in zip(corners, corners[1:], strict=False):
+    for first, last in pairwise(corners):
         count = space.validSegmentCount(state(space, first), state(space, last))
         states.append(first + np.arange(1, count + 1)[:, None] / count * (last - first))
     return np.vstack(states)
