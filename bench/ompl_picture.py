@@ -68,7 +68,7 @@ def picture(seed: int) -> Figure:
     contact = min(contacts, key=lambda v: v["time"])
     touching = check.motion.sample(np.array([contact["time"]]))[0][0]
     checked = checked_states(drawn, corners)
-    figure = Figure(figsize=(11, 5.9), layout="constrained")
+    figure = Figure(figsize=(11, 6.5), layout="constrained")
     whole, near = figure.subplots(1, 2)
     for q in checked:
         whole.plot(*(MM * arm(q)).T, color=CHECKED, linewidth=0.5, alpha=0.35)
