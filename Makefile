@@ -2,7 +2,7 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
-.PHONY: demo test setup bench tables clean
+.PHONY: demo test setup bench tables ompl clean
 
 demo: setup
 	$(BIN)/elbowroom paper --out out/paper
@@ -27,6 +27,14 @@ tables: setup
 bench:
 	cargo bench --workspace
 
+# Compares with OMPL (docs/ompl.md) in an environment of its own; rewrites the tables of that page and its picture.
+ompl:
+	@test -x .venv-ompl/bin/python || $(PYTHON) -m venv .venv-ompl
+	@.venv-ompl/bin/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
+	@.venv-ompl/bin/python -m pip install --quiet --disable-pip-version-check . ompl==2.0.1
+	.venv-ompl/bin/python bench/ompl_safety.py --worlds 100 --seed 0 --out docs/ompl.md
+	.venv-ompl/bin/python bench/ompl_picture.py --out docs/images/ompl_contact.png
+
 # Builds the extension when its sources changed; a complaint about a missing tool is one line.
 setup:
 	@command -v cargo >/dev/null 2>&1 || { echo "error: no Rust toolchain found; install Rust 1.89 or newer from https://rustup.rs" >&2; exit 1; }
@@ -37,4 +45,4 @@ setup:
 	@$(BIN)/maturin develop --release --quiet
 
 clean:
-	rm -rf .venv out target
+	rm -rf .venv .venv-ompl out target

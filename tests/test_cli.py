@@ -72,7 +72,11 @@ def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path)
         (("plan", "missing.yaml"), 2, "missing.yaml: cannot be read"),
         (("plan", "SCENES/paper-standin.yaml"), 2, "first, second"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "x"), 2, "no task is called 'x'"),
-        (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--planner", "rrt"), 2, "dstar-pso, dstar or optimal"),
+        (
+            ("plan", "SCENES/paper-standin.yaml", "--task", "first", "--planner", "rrt"),
+            2,
+            "dstar-pso, dstar or optimal",
+        ),
         (("plan", "SCENES/paper-table1.yaml", "--task", "first"), 3, "not found at this resolution"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--timeout", "0"), 3, "timeout"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--duration", "nan"), 2, "duration"),

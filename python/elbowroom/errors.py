@@ -117,7 +117,10 @@ class NotFree(ElbowroomError, ValueError):
 
 
 class NotFound(ElbowroomError):
-    """No path at this resolution; it is not proved that there is none. ``step`` is that of the grid (m)."""
+    """No path at this resolution; it is not proved that there is none.
+
+    ``step`` is the distance between grid points (m) or, for ``optimal``, between joint angles (rad).
+    """
 
     step: float
 

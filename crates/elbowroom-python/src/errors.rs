@@ -153,7 +153,7 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::Start(refused) => not_free(py, task, "start", refused),
         PlanError::Goal(refused) => not_free(py, task, "goal", refused),
         PlanError::GoalPosture { .. } => setting(py, "posture", &message),
-        PlanError::NotFound { step } => {
+        PlanError::NotFound { step } | PlanError::NotFoundOverJoints { step } => {
             exception(py, "NotFound", &message, |fields| fields.set_item("step", step))
         }
         PlanError::Stopped => timed_out(py, timeout),

@@ -41,9 +41,12 @@ pub(crate) fn over_joints(
     };
     let mut found = Vec::new();
     let mut steps_with_a_path = 0;
+    let mut finest = f64::INFINITY;
     for step in STEPS {
         monitor.stage(Stage::CostToGo);
-        if let Some(path) = shortest(scene, problem, step, weights, monitor)? {
+        let Some(mut graph) = JointGrid::new(scene, step, weights, problem.may_flip) else { break };
+        finest = step;
+        if let Some(path) = shortest(scene, problem, &mut graph, monitor)? {
             monitor.stage(Stage::JointPath);
             found.extend(taut(scene, &path, Plane::Joints(weights), monitor)?);
             steps_with_a_path += 1;
@@ -53,7 +56,7 @@ pub(crate) fn over_joints(
         }
     }
     if found.is_empty() {
-        return Err(PlanError::NotFound { step: scene.grid.step() });
+        return Err(PlanError::NotFoundOverJoints { step: finest });
     }
     Ok(found)
 }
@@ -92,11 +95,9 @@ fn taut(
 fn shortest(
     scene: &Scene,
     problem: &Problem,
-    step: f64,
-    weights: [f64; 2],
+    graph: &mut JointGrid<'_>,
     monitor: &impl Monitor,
 ) -> Result<Option<JointPath>, PlanError> {
-    let Some(mut graph) = JointGrid::new(scene, step, weights, problem.may_flip) else { return Ok(None) };
     let goals: Vec<usize> = problem.goals.iter().map(|q| graph.insert(*q)).collect();
     let starts: Vec<usize> = problem.starts.iter().map(|q| graph.insert(*q)).collect();
     let mut field = Dstar::new(graph.len());
@@ -104,7 +105,7 @@ fn shortest(
         field.insert_goal(goal, 0.0)?;
     }
     for &start in &starts {
-        while field.expand(&graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
+        while field.expand(graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
             if !monitor.keep_going() {
                 return Err(PlanError::Stopped);
             }

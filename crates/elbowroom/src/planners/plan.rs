@@ -72,6 +72,12 @@ pub enum PlanError {
         /// Distance between grid points (m).
         step: f64,
     },
+    /// No grid of joint angles that was tried connects start and goal.
+    #[error("not found at this resolution: no certified path over joint angles {step} rad apart")]
+    NotFoundOverJoints {
+        /// Distance between the angles of the finest grid (rad).
+        step: f64,
+    },
     /// The monitor stopped it.
     #[error("stopped before a path was found")]
     Stopped,

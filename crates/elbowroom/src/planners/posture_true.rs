@@ -154,7 +154,7 @@ fn taut(
                 Ok(more) => candidates.extend(more.into_iter().flat_map(|candidate| {
                     [Candidate { tolerance: GRID_TOLERANCE, ..candidate.clone() }, candidate]
                 })),
-                Err(PlanError::NotFound { .. }) if !candidates.is_empty() => {}
+                Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
                 Err(other) => return Err(other),
             }
             candidates
