@@ -3,6 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "judge/distance.rs"]
+mod distance;
 mod judge;
 mod worlds;
 

@@ -5,9 +5,7 @@ use elbowroom::arm::JointLimits;
 use elbowroom::scene::Scene;
 use elbowroom::trajectory::{Motion, Piece};
 
-mod distance;
-
-use distance::distance;
+use crate::distance::distance;
 
 /// Where base, elbow and tip are at `q` (m).
 pub(crate) fn skeleton(scene: &Scene, q: [f64; 2]) -> [[f64; 2]; 3] {
