@@ -1,13 +1,8 @@
 //! Scene files: what they say, and what is said of those that are wrong.
 
-use std::fmt::Write;
-use std::path::Path;
-
-use elbowroom::arm::{Configuration, JointLimits};
+use elbowroom::arm::{Configuration, JointLimits, MotionLimits};
 use elbowroom::geometry::Point;
-use elbowroom::scene::{Location, Place, Problem, Shape, TaskPosture, parse};
-use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
+use elbowroom::scene::{Location, Place, Shape, TaskPosture, parse};
 
 const SOUND: &str = "\
 elbowroom: 1
@@ -59,18 +54,27 @@ fn every_part_is_read_in_metres_and_radians() {
 }
 
 #[test]
-fn all_scenes_of_the_repository_are_sound() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/elbowroom/scenes");
-    let mut seen = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|e| e == "yaml") {
-            let file = parse(&std::fs::read_to_string(&path).unwrap(), "s.yaml");
-            assert!(file.is_ok(), "{}: {}", path.display(), file.unwrap_err());
-            seen += 1;
-        }
+fn lengths_and_angles_are_those_nearest_to_what_is_written() {
+    for (length, text) in [("m", "0.255"), ("cm", "25.5"), ("mm", "255")] {
+        let text = SOUND.replace("cm", length).replace("[25, 20]", &format!("[{text}, {text}]"));
+        assert_eq!(parse(&text, "s.yaml").unwrap().scene.arm.lengths(), [0.255; 2], "{length}");
     }
-    assert!(seen >= 4);
+    for number in ["20", "+20", "20.", "2e1", "2.0E+1", "200e-1", "020"] {
+        let file = parse(&SOUND.replace("[25, 20]", &format!("[25, {number}]")), "s.yaml");
+        assert_eq!(file.unwrap().scene.arm.lengths()[1], 0.2, "{number}");
+    }
+    let radians =
+        SOUND.replace("deg", "rad").replace("velocity: 90", "velocity: 9, acceleration: 8, jerk: 7");
+    let joint = parse(&radians, "s.yaml").unwrap().scene.arm.joints()[0];
+    let motion = MotionLimits { velocity: Some(9.0), acceleration: Some(8.0), jerk: Some(7.0) };
+    assert_eq!(joint.motion, motion);
+}
+
+#[test]
+fn a_map_alone_needs_neither_obstacles_nor_tasks() {
+    let (map, _) = SOUND.split_once("obstacles:").unwrap();
+    let scene = parse(map, "s.yaml").unwrap().scene;
+    assert!(scene.obstacles.is_empty() && scene.tasks.is_empty());
 }
 
 #[test]
@@ -84,7 +88,11 @@ fn windows_line_ends_and_a_byte_order_mark_change_nothing() {
 fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
     let mut wrong = Vec::new();
     for (old, new, expected) in [
-        ("elbowroom: 1", "elbowroom: 2", "s.yaml:1:12: elbowroom: found 2; allowed: 1"),
+        (
+            "elbowroom: 1",
+            "elbowroom: 2",
+            "s.yaml:1:12: elbowroom: found 2; this elbowroom reads version 1 of the format",
+        ),
         ("elbowroom: 1\n", "", "s.yaml:1:1: missing: elbowroom"),
         (
             "{length: cm, angle: deg}",
@@ -106,7 +114,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ("[25, 20]", "[25, -.Inf]", "s.yaml:4:15: arm.links[1]: found -.Inf; numbers must be finite"),
         ("[25, 20]", "[25, 1e999]", "s.yaml:4:15: arm.links[1]: found 1e999; numbers must be finite"),
         ("[25, 20]", "[25, 1e12]", "s.yaml:4:15: arm.links[1]: found 1e12; allowed: at most 1e6 m in size"),
-        ("[25, 20]", "[25, 1e-5]", "s.yaml:4:3: arm: link 2 is 0.0000001"),
+        ("[25, 20]", "[25, 1e-5]", "s.yaml:4:15: arm.links[1]: found 1e-5; allowed: at least 1e-6 m"),
         ("[25, 20]", "[25, \"20\"]", "s.yaml:4:15: arm.links[1]: found the text \"20\"; allowed: a number"),
         ("[25, 20]", "[25, 0x14]", "s.yaml:4:15: arm.links[1]: found 0x14; allowed: a number"),
         ("[25, 20]", "[25, infinity]", "s.yaml:4:15: arm.links[1]: found infinity; allowed: a number"),
@@ -131,7 +139,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{continuous: false}",
-            "s.yaml:7:20: arm.joints[1].continuous: found false; allowed: true",
+            "s.yaml:7:20: arm.joints[1].continuous: found false; allowed: true; a joint with stops has min and max instead",
         ),
         (
             "{min: -150, max: 150}",
@@ -141,7 +149,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -1e9, max: 150}",
-            "s.yaml:7:7: arm.joints[1]: found a mapping; allowed: stops within a thousand turns of 0",
+            "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand turns of 0",
         ),
         (
             "velocity: 90",
@@ -150,7 +158,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ),
         ("half_width: 2", "half_width: -2", "s.yaml:8:15: arm.half_width: found -2; allowed: 0 or more"),
         ("base: [1, -2]", "base: [1]", "s.yaml:9:9: arm.base: found a list of 1; allowed: [x, y]"),
-        ("step: 1", "step: 0", "s.yaml:10:7: grid: step is 0 m, it must be finite and greater than 0"),
+        ("step: 1", "step: 0", "s.yaml:10:42: grid.step: step is 0 m, it must be finite and greater than 0"),
         (
             "step: 1",
             "step: 1e-9",
@@ -159,7 +167,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "x: [-50, 50]",
             "x: [50, -50]",
-            "s.yaml:10:7: grid: range x is 0.5 m to -0.5 m, it must be finite and must not end before it begins",
+            "s.yaml:10:11: grid.x: range x is 0.5 m to -0.5 m, it must be finite and must not end before it begins",
         ),
         (
             "radius: 5",
@@ -184,7 +192,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "[[0, 30], [5, 30], [0, 35]]",
             "[[0, 30], [5, 35], [5, 30], [0, 35]]",
-            "s.yaml:14:14: obstacles[1].polygon: edge 0 (from vertex 0) crosses or touches edge 2 (from vertex 2)",
+            "s.yaml:14:15: obstacles[1].polygon[0]: edge 0 (from vertex 0) crosses or touches edge 2 (from vertex 2)",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",
@@ -194,7 +202,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "  - polygon: [[0, 30], [5, 30], [0, 35]]",
             "  - circle: {center: [0, 0], radius: 1}\n    name: post",
-            "s.yaml:1:1: two obstacles are called 'post'",
+            "s.yaml:15:11: obstacles[1].name: two obstacles are called 'post'",
         ),
         (
             "start: [40, 10]",
@@ -219,20 +227,92 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "half_width: 2",
             "half_width: 2\n  half_width: 3",
-            "s.yaml:9:3: half_width: the key was given before, in line 8",
+            "s.yaml:9:3: arm.half_width: the key was given before, in line 8",
         ),
         (
             "[25, 20]",
             "&a [25, 20]",
-            "s.yaml:4:10: anchors, aliases and tags are not read; write the value out",
+            "s.yaml:4:10: arm.links: anchors, aliases and tags are not read; write the value out",
         ),
-        ("[25, 20]", "[25, 20", "s.yaml:5:9: not YAML: "),
-        ("name: post", "name: [", "s.yaml:14:"),
+        (
+            "elbowroom: 1",
+            "elbowroom: 2\nfuture: 1",
+            "s.yaml:1:12: elbowroom: found 2; this elbowroom reads version 1 of the format",
+        ),
+        ("[25, 20]", "[25, 1_0]", "s.yaml:4:15: arm.links[1]: found 1_0; allowed: a number"),
+        ("[25, 20]", "[25, 1e-300]", "s.yaml:4:15: arm.links[1]: found 1e-300; allowed: at least 1e-6 m"),
+        ("[25, 20]", "[25, *b]", "s.yaml:4:15: anchors, aliases and tags are not read; write the value out"),
+        (
+            "[25, 20]",
+            "[25, !!int 20]",
+            "s.yaml:4:15: arm.links[1]: anchors, aliases and tags are not read; write the value out",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{min: -150, max: 1e9}",
+            "s.yaml:7:24: arm.joints[1].max: found 1e9; allowed: within a thousand turns of 0",
+        ),
+        (
+            "base: [1, -2]",
+            "base: [1, 1e9]",
+            "s.yaml:9:13: arm.base[1]: found 1e9; allowed: at most 1e6 m in size",
+        ),
+        ("y: [-40, 40]", "y: [-40, 40, 1]", "s.yaml:10:25: grid.y: found a list of 3; allowed: [min, max]"),
+        (
+            "y: [-40, 40]",
+            "y: [40, -40]",
+            "s.yaml:10:25: grid.y: range y is 0.4 m to -0.4 m, it must be finite and must not end before it begins",
+        ),
+        (
+            "step: 1",
+            "step: 1e-300",
+            "s.yaml:10:7: grid: 1e302 x 8e301 points are more than the 33554432 allowed",
+        ),
+        ("name: post", "name:", "s.yaml:13:9: obstacles[0].name: found nothing; allowed: a name"),
+        ("name: post", "name: ~", "s.yaml:13:11: obstacles[0].name: found nothing; allowed: a name"),
+        ("name: post", "name: \"\"", "s.yaml:13:11: obstacles[0].name: found the text \"\"; allowed: a name"),
+        (
+            "name: post",
+            "motion: 1",
+            "s.yaml:13:5: obstacles[0].motion: no such key; known here: circle, polygon, name",
+        ),
+        (
+            "[[0, 30], [5, 30], [0, 35]]",
+            "[[0, 30], [5, 30], [0, 35], [0, 30]]",
+            "s.yaml:14:42: obstacles[1].polygon[3]: corner 3 is corner 0 again; all corners differ, and the last is joined to the first",
+        ),
+        (
+            "[[0, 30], [5, 30], [0, 35]]",
+            "[[0, 30], [5, 30], [5, 30], [0, 35]]",
+            "s.yaml:14:33: obstacles[1].polygon[2]: corner 2 is corner 1 again; all corners differ, and the last is joined to the first",
+        ),
+        (
+            "[[0, 30], [5, 30], [0, 35]]",
+            "[[0, 30], [5, .inf], [0, 35]]",
+            "s.yaml:14:28: obstacles[1].polygon[1][1]: found .inf; numbers must be finite",
+        ),
+        ("first: {start", "\"\": {start", "s.yaml:16:3: tasks: found an empty name; allowed: a name"),
+        (
+            "first: {start: [40, 10]",
+            "\"a\\nb\": {start: [40]",
+            "s.yaml:16:19: tasks.a\\nb.start: found a list of 1; allowed: [x, y], or {q: [q1, q2]}",
+        ),
+        (
+            "{q: [90, -30]}",
+            "{q: [90, 1e300]}",
+            "s.yaml:16:43: tasks.first.goal.q[1]: found 1e300; allowed: at most 1e4 rad in size",
+        ),
+        (
+            "{q: [90, -30]}",
+            "{q: 90}",
+            "s.yaml:16:38: tasks.first.goal.q: found 90; allowed: [q1, q2], a joint angle each",
+        ),
+        ("[25, 20]", "[25, 20", "s.yaml:5:9: not YAML: illegal placement of ':' indicator"),
     ] {
         assert!(SOUND.contains(old), "{old}");
         let found = message(&SOUND.replacen(old, new, 1));
         assert!(found.lines().count() <= 3);
-        if !found.starts_with(expected) {
+        if found != expected {
             wrong.push(format!("{new}\nfound    {found}\nexpected {expected}"));
         }
     }
@@ -248,63 +328,12 @@ fn files_that_are_no_scene_at_all_are_refused() {
         ("- 1\n- 2\n", "s.yaml:1:1: found a list of 2; allowed: a mapping"),
         ("a: *b\n", "s.yaml:1:4: "),
         ("? [1]\n: 2\n", "s.yaml:1:3: a key is a list; keys are plain text"),
-        ("\t", "s.yaml"),
+        ("\t", "s.yaml: the file is empty"),
+        ("a: [1, 2\n", "s.yaml:2:1: not YAML: "),
+        ("[[[[[[[[[[[[[[[[[", "s.yaml:1:17: "),
     ] {
         let found = message(text);
         assert!(found.starts_with(expected), "{text:?}\nfound    {found}\nexpected {expected}");
     }
     assert!(message(&format!("{SOUND}---\n{SOUND}")).contains("a second document begins"));
-}
-
-#[test]
-fn bombs_are_refused_before_they_go_off() {
-    let huge = format!("{SOUND}#{}", "x".repeat(4 << 20));
-    assert!(matches!(parse(&huge, "s").unwrap_err().problem, Problem::TooLarge { .. }));
-    let mut aliases = "a: &a [x, x, x, x, x, x, x, x, x]\n".to_owned();
-    for i in 1..30 {
-        writeln!(aliases, "b{i}: &b{i} [*a, *a, *a, *a, *a, *a, *a, *a]").unwrap();
-    }
-    assert_eq!(parse(&aliases, "s").unwrap_err().problem, Problem::NotPlain);
-    for deep in ["[".repeat(100_000), "{a: ".repeat(100_000), "- ".repeat(100_000)] {
-        assert!(parse(&deep, "s").is_err());
-    }
-    let many = format!("obstacles: [{}]", "1,".repeat(2_000_000));
-    assert!(matches!(parse(&many, "s").unwrap_err().problem, Problem::TooMany { .. }));
-}
-
-#[test]
-fn damaged_files_never_do_worse_than_be_refused() {
-    let mut rng = ChaCha8Rng::seed_from_u64(11);
-    let mut below = |count: usize| (rng.next_u64() % count as u64) as usize;
-    let pieces = [
-        "[", "]", "{", "}", ":", "-", "\n", " ", "&a", "*a", "!!t", "\"", "'", "#", ".nan", "1e400", "é",
-        "\0", "|", ">", "?", "%", "@",
-    ];
-    let mut refused = 0;
-    for _ in 0..20_000 {
-        let mut text: Vec<char> = SOUND.chars().collect();
-        for _ in 0..=below(4) {
-            if text.is_empty() {
-                break;
-            }
-            let at = below(text.len());
-            match below(4) {
-                0 => drop(text.remove(at)),
-                1 => text.splice(at..at, pieces[below(pieces.len())].chars()).for_each(drop),
-                2 => text.truncate(at.max(1)),
-                _ => {
-                    let to = (at + below(20)).min(text.len());
-                    let copy: Vec<char> = text[at..to].to_vec();
-                    let there = below(text.len());
-                    text.splice(there..there, copy).for_each(drop);
-                }
-            }
-        }
-        let text: String = text.into_iter().collect();
-        if let Err(error) = parse(&text, "s.yaml") {
-            refused += 1;
-            assert!(error.to_string().lines().count() <= 3, "{error}");
-        }
-    }
-    assert!(refused > 10_000, "{refused}");
 }

@@ -117,24 +117,38 @@ impl Polygon {
         deepest
     }
 
+    /// The first two edges, in their order, that have more in common than they may.
+    ///
+    /// Only edges whose boxes meet are looked at closely; they are found in the order of their left ends.
     fn first_meeting_edges(&self) -> Option<(usize, usize)> {
         let edges: Vec<Segment> = self.edges().collect();
-        let n = edges.len();
-        for i in 0..n {
-            for j in i + 1..n {
-                let meet = if j == i + 1 {
-                    folds_back(edges[i].a, edges[i].b, edges[j].b)
-                } else if i == 0 && j == n - 1 {
-                    folds_back(edges[j].a, edges[j].b, edges[i].b)
-                } else {
-                    edges[i].meets(edges[j])
-                };
-                if meet {
-                    return Some((i, j));
+        let x = |i: usize| (edges[i].a.x.min(edges[i].b.x), edges[i].a.x.max(edges[i].b.x));
+        let y = |i: usize| (edges[i].a.y.min(edges[i].b.y), edges[i].a.y.max(edges[i].b.y));
+        let mut left_to_right: Vec<usize> = (0..edges.len()).collect();
+        left_to_right.sort_by(|&i, &j| x(i).0.total_cmp(&x(j).0));
+        let mut first = None;
+        for (place, &i) in left_to_right.iter().enumerate() {
+            let ((_, right), (bottom, top)) = (x(i), y(i));
+            for &j in left_to_right[place + 1..].iter().take_while(|&&j| x(j).0 <= right) {
+                let pair = (i.min(j), i.max(j));
+                let boxes_meet = y(j).0 <= top && bottom <= y(j).1;
+                if boxes_meet && first.is_none_or(|first| pair < first) && edges_meet(&edges, pair) {
+                    first = Some(pair);
                 }
             }
         }
-        None
+        first
+    }
+}
+
+/// Whether two edges of a closed line, the first given first, have more in common than neighbours' shared end.
+fn edges_meet(edges: &[Segment], (i, j): (usize, usize)) -> bool {
+    if j == i + 1 {
+        folds_back(edges[i].a, edges[i].b, edges[j].b)
+    } else if i == 0 && j == edges.len() - 1 {
+        folds_back(edges[j].a, edges[j].b, edges[i].b)
+    } else {
+        edges[i].meets(edges[j])
     }
 }
 

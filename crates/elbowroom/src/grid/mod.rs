@@ -27,13 +27,18 @@ pub enum GridError {
         max: f64,
     },
     /// More points than [`MAX_POINTS`].
-    #[error("{columns} x {rows} points are more than the {MAX_POINTS} allowed")]
+    #[error("{} x {} points are more than the {MAX_POINTS} allowed", in_digits(*columns), in_digits(*rows))]
     TooManyPoints {
         /// Points along x; a rounded figure where it is huge.
         columns: f64,
         /// Points along y.
         rows: f64,
     },
+}
+
+/// A whole number; one of hundreds of digits as a power of ten.
+fn in_digits(count: f64) -> String {
+    if count < 1e15 { count.to_string() } else { format!("{count:e}") }
 }
 
 /// Points at `origin + (column, row) * step`; both ends of a range belong to it where the step divides it.

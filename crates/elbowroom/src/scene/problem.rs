@@ -5,16 +5,16 @@ use thiserror::Error;
 use super::{Place, Scene};
 
 /// Most obstacles of a scene: a map numbers them in 16 bits.
-const MOST_OBSTACLES: usize = 1 << 16;
+pub(super) const MOST_OBSTACLES: usize = 1 << 16;
 
 /// Most tasks of a scene.
-const MOST_TASKS: usize = 1000;
+pub(super) const MOST_TASKS: usize = 1000;
 
 /// Greatest coordinate of a task's tip (m).
 const GREATEST_COORDINATE: f64 = 1e6;
 
 /// Greatest angle of a task's joint (rad): beyond it angles lose the digits the checks rely on.
-const GREATEST_ANGLE: f64 = 1e4;
+pub(super) const GREATEST_ANGLE: f64 = 1e4;
 
 /// Why parts make no scene.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -32,20 +32,21 @@ pub enum SceneProblem {
         found: usize,
     },
     /// Two obstacles with one name.
-    #[error("two obstacles are called '{name}'")]
+    #[error("two obstacles are called '{}'", name.escape_debug())]
     ObstacleName {
         /// The name.
         name: String,
     },
     /// Two tasks with one name, or a task without.
-    #[error("two tasks are called '{name}', or one has no name")]
+    #[error("two tasks are called '{}', or one has no name", name.escape_debug())]
     TaskName {
         /// The name.
         name: String,
     },
     /// A start or goal that is no place.
     #[error(
-        "task '{task}': start and goal must be finite, tips within {GREATEST_COORDINATE:e} m, angles within {GREATEST_ANGLE:e} rad"
+        "task '{}': start and goal must be finite, tips within {GREATEST_COORDINATE:e} m, angles within {GREATEST_ANGLE:e} rad",
+        task.escape_debug()
     )]
     Place {
         /// Whose.

@@ -2,7 +2,7 @@ use super::error::Problem;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
-use crate::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
+use crate::arm::{ArmError, Joint, JointLimits, JointLimitsError, MotionLimits, TwoLinkArm};
 use crate::geometry::Point;
 
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault> {
@@ -35,14 +35,19 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault>
         Some(value) => value.point(units)?,
         None => Point::new(0.0, 0.0),
     };
-    TwoLinkArm::new(base, lengths, half_width, joints).map_err(|error| value.fault(error.into()))
+    TwoLinkArm::new(base, lengths, half_width, joints).map_err(|error| match error {
+        ArmError::Length { link, .. } => links[link - 1].out_of_range("at least 1e-6 m"),
+        _ => value.fault(error.into()),
+    })
 }
 
 fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
     let map = value.map(&keys::JOINT)?;
     let limits = match (map.optional("continuous"), map.optional("min"), map.optional("max")) {
         (Some(continuous), None, None) => {
-            continuous.word(&["true"])?;
+            continuous
+                .word(&["true"])
+                .map_err(|_| continuous.shape("true; a joint with stops has min and max instead"))?;
             JointLimits::Continuous
         }
         (Some(_), ..) => {
@@ -66,11 +71,14 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
 
 fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
     let (low, high) = (min.number()?, max.number()?);
-    if low > high {
-        return Err(joint.fault(Problem::LimitsReversed { min: low, max: high }));
-    }
-    JointLimits::range(units.angle(low), units.angle(high))
-        .map_err(|_| joint.out_of_range("stops within a thousand turns of 0"))
+    let (min_angle, max_angle) = (units.angle(low), units.angle(high));
+    JointLimits::range(min_angle, max_angle).map_err(|error| match error {
+        JointLimitsError::Reversed { .. } => joint.fault(Problem::LimitsReversed { min: low, max: high }),
+        JointLimitsError::OutsideRange { .. } => {
+            let far = if JointLimits::range(min_angle, min_angle).is_err() { min } else { max };
+            far.out_of_range("within a thousand turns of 0")
+        }
+    })
 }
 
 fn rate(map: &Map<'_>, key: &str, units: Units) -> Result<Option<f64>, Fault> {

@@ -70,6 +70,14 @@ pub enum Problem {
     /// An anchor, an alias or a tag.
     #[error("anchors, aliases and tags are not read; write the value out")]
     NotPlain,
+    /// Another version of the format.
+    #[error("found {found}; this elbowroom reads version {read} of the format")]
+    Version {
+        /// What is written.
+        found: String,
+        /// The one that is read.
+        read: &'static str,
+    },
     /// A key of a mapping that is no text.
     #[error("a key is {found}; keys are plain text")]
     KeyShape {
@@ -139,6 +147,16 @@ pub enum Problem {
         found: usize,
         /// How many links.
         links: usize,
+    },
+    /// Two neighbouring corners of a polygon, the last and the first among them, are one.
+    #[error(
+        "corner {second} is corner {first} again; all corners differ, and the last is joined to the first"
+    )]
+    CornerTwice {
+        /// A corner, from 0.
+        first: usize,
+        /// The same once more.
+        second: usize,
     },
     /// Neither one shape nor the other, or both.
     #[error("an obstacle is either a circle or a polygon; found {found}")]

@@ -1,7 +1,7 @@
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Value};
-use crate::grid::Grid;
+use crate::grid::{Grid, GridError};
 
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Grid, Fault> {
     let map = value.map(&keys::GRID)?;
@@ -9,6 +9,14 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Grid, Fault> {
         let [min, max] = map.required(key)?.pair("[min, max]")?;
         Ok([min.length(units)?, max.length(units)?])
     };
-    let (x, y) = (range("x")?, range("y")?);
-    Grid::new(x, y, map.required("step")?.length(units)?).map_err(|error| value.fault(error.into()))
+    let (x, y, step) = (range("x")?, range("y")?, map.required("step")?);
+    Grid::new(x, y, step.length(units)?).map_err(|error| {
+        let wrong = match error {
+            GridError::Step { .. } => Some(step),
+            GridError::Range { axis: 'x', .. } => map.optional("x"),
+            GridError::Range { .. } => map.optional("y"),
+            GridError::TooManyPoints { .. } => None,
+        };
+        wrong.as_ref().unwrap_or(value).fault(error.into())
+    })
 }

@@ -84,8 +84,13 @@ pub fn parse(text: &str, file: &str) -> Result<SceneFile, SceneError> {
 }
 
 fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
+    // Before all else: keys that are unknown here may be known to another version.
+    if let Some(version) = root.peek("elbowroom") {
+        version
+            .word(&[VERSION])
+            .map_err(|_| version.fault(Problem::Version { found: version.in_words(), read: VERSION }))?;
+    }
     let map = root.map(&keys::ROOT)?;
-    map.required("elbowroom")?.word(&[VERSION])?;
     let units = Units::read(&map.required("units")?)?;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;

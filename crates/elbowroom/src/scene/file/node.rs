@@ -27,12 +27,16 @@ pub(super) struct Entry {
 }
 
 impl Node {
+    /// Whether it is YAML's null.
+    pub(super) fn is_nothing(&self) -> bool {
+        let Kind::Scalar { text, quoted: false } = &self.kind else { return false };
+        matches!(text.as_str(), "" | "~" | "null" | "Null" | "NULL")
+    }
+
     /// What it is, in words.
     pub(super) fn in_words(&self) -> String {
         match &self.kind {
-            Kind::Scalar { text, quoted: false } if text.is_empty() || text == "~" || text == "null" => {
-                "nothing".to_owned()
-            }
+            Kind::Scalar { .. } if self.is_nothing() => "nothing".to_owned(),
             Kind::Scalar { text, quoted: true } => format!("the text \"{}\"", shortened(text)),
             Kind::Scalar { text, .. } => shortened(text),
             Kind::List(values) => format!("a list of {}", values.len()),
@@ -41,11 +45,18 @@ impl Node {
     }
 }
 
-fn shortened(text: &str) -> String {
+/// The text as it can stand in a message of one line.
+pub(super) fn shortened(text: &str) -> String {
     const MOST: usize = 40;
-    if text.chars().count() <= MOST {
-        return text.escape_debug().to_string();
+    let mut shown = String::new();
+    for letter in text.chars().take(MOST) {
+        match letter {
+            '\'' => shown.push(letter),
+            _ => shown.extend(letter.escape_debug()),
+        }
     }
-    let start: String = text.chars().take(MOST).collect();
-    format!("{}...", start.escape_debug())
+    if text.chars().nth(MOST).is_some() {
+        shown.push_str("...");
+    }
+    shown
 }

@@ -5,7 +5,8 @@ use super::keys;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::arm::Configuration;
-use crate::scene::{Place, Task, TaskPosture};
+use crate::scene::problem::{GREATEST_ANGLE, MOST_TASKS};
+use crate::scene::{Place, SceneProblem, Task, TaskPosture};
 
 /// The tasks, and where each has its start and goal.
 pub(super) type Tasks = (Vec<Task>, BTreeMap<String, [Location; 2]>);
@@ -13,7 +14,11 @@ pub(super) type Tasks = (Vec<Task>, BTreeMap<String, [Location; 2]>);
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Tasks, Fault> {
     let mut tasks = Vec::new();
     let mut ends = BTreeMap::new();
-    for (name, value) in value.named()? {
+    let named = value.named()?;
+    if named.len() > MOST_TASKS {
+        return Err(value.fault(SceneProblem::Tasks { found: named.len() }.into()));
+    }
+    for (name, value) in named {
         let map = value.map(&keys::TASK)?;
         let (start, goal) = (map.required("start")?, map.required("goal")?);
         let posture = match map.optional("posture") {
@@ -40,11 +45,16 @@ fn place(value: &Value<'_>, units: Units) -> Result<Place, Fault> {
     if value.is_map() {
         let map = value.map(&keys::PLACE)?;
         let [q1, q2] = map.required("q")?.pair("[q1, q2], a joint angle each")?;
-        return Ok(Place::Configuration(Configuration([
-            units.angle(q1.number()?),
-            units.angle(q2.number()?),
-        ])));
+        return Ok(Place::Configuration(Configuration([joint(&q1, units)?, joint(&q2, units)?])));
     }
     let [x, y] = value.pair("[x, y], or {q: [q1, q2]}")?;
     Ok(Place::Tip(crate::geometry::Point::new(x.length(units)?, y.length(units)?)))
+}
+
+fn joint(value: &Value<'_>, units: Units) -> Result<f64, Fault> {
+    let angle = units.angle(value.number()?);
+    if angle.abs() > GREATEST_ANGLE {
+        return Err(value.out_of_range("at most 1e4 rad in size"));
+    }
+    Ok(angle)
 }

@@ -5,7 +5,7 @@ use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError};
 use super::Location;
 use super::error::Problem;
 use super::node::{Entry, Kind, Node};
-use super::value::Fault;
+use super::value::{Fault, child};
 
 /// Most bytes that are read.
 const MOST_BYTES: usize = 4 << 20;
@@ -15,6 +15,8 @@ const MOST_VALUES: usize = 1 << 20;
 
 /// Most lists and mappings in one another; the format needs six.
 const MOST_DEPTH: usize = 16;
+
+const TOO_DEEP: Problem = Problem::TooMany { what: "lists and mappings in one another", most: MOST_DEPTH };
 
 /// The one document of `text` as a tree of marked nodes.
 pub(super) fn tree(text: &str) -> Result<Node, Fault> {
@@ -41,7 +43,12 @@ fn whole(problem: Problem) -> Fault {
 }
 
 fn syntax(error: &ScanError) -> Fault {
-    let problem = Problem::Syntax { message: error.info().to_owned() };
+    let problem = match error.info() {
+        // The parser looks some way ahead and meets these before the builder does.
+        "recursion limit exceeded" => TOO_DEEP,
+        "while parsing node, found unknown anchor" => Problem::NotPlain,
+        message => Problem::Syntax { message: message.to_owned() },
+    };
     Fault { at: Some(location(error.marker())), key: String::new(), problem }
 }
 
@@ -73,7 +80,7 @@ enum Open {
 
 impl Builder {
     fn take(&mut self, event: Event<'_>, at: Location) -> Result<(), Fault> {
-        let fault = |problem| Err(Fault { at: Some(at), key: String::new(), problem });
+        let fault = |problem| Err(Fault { at: Some(at), key: self.path(), problem });
         match event {
             Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => Ok(()),
             Event::DocumentStart(_) if self.document.is_some() => fault(Problem::SecondDocument),
@@ -105,8 +112,7 @@ impl Builder {
 
     fn begin(&mut self, at: Location, open: Open) -> Result<(), Fault> {
         if self.open.len() == MOST_DEPTH {
-            let problem = Problem::TooMany { what: "lists and mappings in one another", most: MOST_DEPTH };
-            return Err(Fault { at: Some(at), key: String::new(), problem });
+            return Err(Fault { at: Some(at), key: self.path(), problem: TOO_DEEP });
         }
         self.open.push(open);
         Ok(())
@@ -114,30 +120,46 @@ impl Builder {
 
     fn put(&mut self, node: Node) -> Result<(), Fault> {
         let at = node.at;
-        let fault = |problem| Err(Fault { at: Some(at), key: String::new(), problem });
         self.values += 1;
         if self.values > MOST_VALUES {
-            return fault(Problem::TooMany { what: "values", most: MOST_VALUES });
+            let problem = Problem::TooMany { what: "values", most: MOST_VALUES };
+            return Err(Fault { at: Some(at), key: self.path(), problem });
         }
         match self.open.last_mut() {
             None => self.document = Some(node),
             Some(Open::List { values, .. }) => values.push(node),
-            Some(Open::Map { entries, seen, key, .. }) => match (key.take(), node.kind) {
-                (Some((name, key_at)), kind) => {
-                    entries.push(Entry { key: name, key_at, value: Node { at, kind } });
-                }
-                (None, Kind::Scalar { text, .. }) => {
-                    if let Some(&first) = seen.get(&text) {
-                        let problem = Problem::DuplicateKey { first };
-                        return Err(Fault { at: Some(at), key: text, problem });
+            Some(Open::Map { entries, seen, key, .. }) => match key.take() {
+                Some((key, key_at)) => entries.push(Entry { key, key_at, value: node }),
+                None => match new_key(node, seen) {
+                    Ok(name) => *key = Some((name, at)),
+                    Err((name, problem)) => {
+                        let key = name.map_or_else(|| self.path(), |name| child(&self.path(), &name));
+                        return Err(Fault { at: Some(at), key, problem });
                     }
-                    seen.insert(text.clone(), at);
-                    *key = Some((text, at));
-                }
-                (None, Kind::List(_)) => return fault(Problem::KeyShape { found: "a list" }),
-                (None, Kind::Map(_)) => return fault(Problem::KeyShape { found: "a mapping" }),
+                },
             },
         }
         Ok(())
+    }
+
+    /// The path of keys to the value that comes next.
+    fn path(&self) -> String {
+        self.open.iter().fold(String::new(), |path, open| match open {
+            Open::List { values, .. } => format!("{path}[{}]", values.len()),
+            Open::Map { key: Some((name, _)), .. } => child(&path, name),
+            Open::Map { key: None, .. } => path,
+        })
+    }
+}
+
+/// The text of a key that its mapping has not `seen`; otherwise what is wrong, with the text where there is one.
+fn new_key(node: Node, seen: &mut HashMap<String, Location>) -> Result<String, (Option<String>, Problem)> {
+    match node.kind {
+        Kind::Scalar { text, .. } => match seen.insert(text.clone(), node.at) {
+            None => Ok(text),
+            Some(first) => Err((Some(text), Problem::DuplicateKey { first })),
+        },
+        Kind::List(_) => Err((None, Problem::KeyShape { found: "a list" })),
+        Kind::Map(_) => Err((None, Problem::KeyShape { found: "a mapping" })),
     }
 }

@@ -1,8 +1,9 @@
 use super::Location;
 use super::error::{Problem, SceneError};
 use super::keys::Keys;
-use super::node::{Entry, Kind, Node};
+use super::node::{Entry, Kind, Node, shortened};
 use super::units::Units;
+use crate::geometry::Point;
 
 /// Greatest length or coordinate (m): beyond it the last digits of a position are no longer nanometres.
 const GREATEST_LENGTH: f64 = 1e6;
@@ -19,6 +20,12 @@ impl Fault {
     pub(super) fn in_file(self, file: &str) -> SceneError {
         SceneError { file: file.to_owned(), location: self.at, key: self.key, problem: self.problem }
     }
+}
+
+/// The path to `name` in the mapping at `parent`; fit for a message, whatever the user's names look like.
+pub(super) fn child(parent: &str, name: &str) -> String {
+    let name = shortened(name);
+    if parent.is_empty() { name } else { format!("{parent}.{name}") }
 }
 
 /// A node and the path of keys to it.
@@ -46,7 +53,11 @@ impl<'a> Value<'a> {
         Fault { at: Some(self.node.at), key: self.key.clone(), problem }
     }
 
-    fn shape(&self, allowed: impl Into<String>) -> Fault {
+    pub(super) fn in_words(&self) -> String {
+        self.node.in_words()
+    }
+
+    pub(super) fn shape(&self, allowed: impl Into<String>) -> Fault {
         self.fault(Problem::Shape { found: self.node.in_words(), allowed: allowed.into() })
     }
 
@@ -54,8 +65,11 @@ impl<'a> Value<'a> {
         self.fault(Problem::OutOfRange { found: self.node.in_words(), allowed })
     }
 
-    fn child(&self, name: &str) -> String {
-        if self.key.is_empty() { name.to_owned() } else { format!("{}.{name}", self.key) }
+    /// The value of `key`, if this is a mapping that has it, sound or not.
+    pub(super) fn peek(&self, key: &str) -> Option<Value<'a>> {
+        let Kind::Map(entries) = &self.node.kind else { return None };
+        let entry = entries.iter().find(|entry| entry.key == key)?;
+        Some(Value { node: &entry.value, key: child(&self.key, key) })
     }
 
     /// The mapping, with no keys but those of `keys`, and all it needs.
@@ -65,7 +79,7 @@ impl<'a> Value<'a> {
             if !keys.known().any(|known| known == entry.key) {
                 let suggestion = nearest(&entry.key, keys.known());
                 let problem = Problem::UnknownKey { known: keys.known().collect(), suggestion };
-                return Err(Fault { at: Some(entry.key_at), key: self.child(&entry.key), problem });
+                return Err(Fault { at: Some(entry.key_at), key: child(&self.key, &entry.key), problem });
             }
         }
         match keys.required.iter().find(|key| entries.iter().all(|entry| entry.key != **key)) {
@@ -77,7 +91,12 @@ impl<'a> Value<'a> {
     /// The mapping with names of the user's choice.
     pub(super) fn named(&'a self) -> Result<Vec<(&'a str, Value<'a>)>, Fault> {
         let entries = self.entries(|| "a mapping of names".to_owned())?;
-        let value = |entry: &'a Entry| Value { node: &entry.value, key: self.child(&entry.key) };
+        if let Some(unnamed) = entries.iter().find(|entry| entry.key.is_empty()) {
+            let (found, allowed) = ("an empty name".to_owned(), "a name".to_owned());
+            let problem = Problem::Shape { found, allowed };
+            return Err(Fault { at: Some(unnamed.key_at), key: self.key.clone(), problem });
+        }
+        let value = |entry: &'a Entry| Value { node: &entry.value, key: child(&self.key, &entry.key) };
         Ok(entries.iter().map(|entry| (entry.key.as_str(), value(entry))).collect())
     }
 
@@ -114,9 +133,9 @@ impl<'a> Value<'a> {
     }
 
     /// Text that is not empty.
-    pub(super) fn name(&self) -> Result<String, Fault> {
+    pub(super) fn name(&self) -> Result<&'a str, Fault> {
         match &self.node.kind {
-            Kind::Scalar { text, .. } if !text.is_empty() => Ok(text.clone()),
+            Kind::Scalar { text, .. } if !(text.is_empty() || self.node.is_nothing()) => Ok(text),
             _ => Err(self.shape("a name")),
         }
     }
@@ -153,16 +172,16 @@ impl<'a> Value<'a> {
     }
 
     /// Two coordinates (m).
-    pub(super) fn point(&self, units: Units) -> Result<crate::geometry::Point, Fault> {
+    pub(super) fn point(&self, units: Units) -> Result<Point, Fault> {
         let [x, y] = self.pair("[x, y]")?;
-        Ok(crate::geometry::Point::new(x.length(units)?, y.length(units)?))
+        Ok(Point::new(x.length(units)?, y.length(units)?))
     }
 }
 
 impl<'a> Map<'a> {
     pub(super) fn optional(&self, key: &str) -> Option<Value<'a>> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
-        Some(Value { node: &entry.value, key: self.value.child(key) })
+        Some(Value { node: &entry.value, key: child(&self.value.key, key) })
     }
 
     pub(super) fn required(&self, key: &'static str) -> Result<Value<'a>, Fault> {
