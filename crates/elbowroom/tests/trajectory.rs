@@ -2,8 +2,8 @@
 
 use elbowroom::arm::Configuration;
 use elbowroom::trajectory::{
-    Motion, MotionError, Piece, SpeedLimits, State, durations_by_length, fastest_durations, quintic_through,
-    random_vias, stretch, vias_at,
+    Curve, Motion, MotionError, Piece, Samples, SamplesError, SpeedLimits, State, TICK, durations_by_length,
+    fastest_durations, interpolate, quintic_through, random_vias, rescaled, stretch, vias_at,
 };
 
 /// Seeded uniform numbers in [-1, 1).
@@ -149,7 +149,11 @@ fn fastest_is_within_limits_and_close_to_them() {
         let durations = fastest_durations(&vias, &limits);
         let pieces = quintic_through(&vias, &durations);
         let worst = pieces.iter().map(|piece| stretch(piece, &limits)).fold(0.0, f64::max);
-        assert!(worst <= 1.0 && worst > 0.999, "worst stretch {worst}");
+        assert!(worst <= 1.0 && worst > 0.9, "worst stretch {worst}");
+        for duration in &durations {
+            let ticks = duration / TICK;
+            assert!((ticks - ticks.round()).abs() < 1e-9 && ticks.round() >= 1.0, "{duration} s");
+        }
         for piece in &pieces {
             for i in 0..=200 {
                 let state = piece.at(piece.duration * f64::from(i) / 200.0);
@@ -163,7 +167,11 @@ fn fastest_is_within_limits_and_close_to_them() {
         let proportional = durations_by_length(&vias, 1.0);
         let stretched = quintic_through(&vias, &proportional);
         let plain = stretched.iter().map(|piece| stretch(piece, &limits)).fold(0.0, f64::max);
-        assert!(durations.iter().sum::<f64>() <= plain * (1.0 + 1e-6), "evening out never costs time");
+        let rounding = 3.0 * TICK * durations.len() as f64;
+        assert!(
+            durations.iter().sum::<f64>() <= plain * (1.0 + 1e-6) + rounding,
+            "evening out never costs time"
+        );
     }
 }
 
@@ -206,5 +214,89 @@ fn random_vias_are_seeded_ordered_and_evenly_drawn() {
     for count in &counts[1..19] {
         // 20,000 draws at 1/3 each: six standard deviations are 400.
         assert!((count - 6667i32).abs() < 400, "{counts:?}");
+    }
+}
+
+#[test]
+fn a_rescaled_motion_lasts_what_was_asked_and_meets_its_vias_on_ticks() {
+    let durations = [0.3, 0.51, 0.2, 1.0];
+    for total in [1.0, 2.01, 2.5, 7.77, 30.0] {
+        let scaled = rescaled(&durations, total);
+        assert!((scaled.iter().sum::<f64>() - total).abs() < 1e-12);
+        let mut end = 0.0;
+        for duration in &scaled[..3] {
+            end += duration;
+            assert!(((end / TICK) - (end / TICK).round()).abs() < 1e-6, "{end}");
+        }
+    }
+    // Too short for a tick each: shared as they are.
+    let short = rescaled(&durations, 0.02);
+    assert!((short[0] / short[1] - 0.3 / 0.51).abs() < 1e-12);
+}
+
+#[test]
+fn samples_become_the_curve_a_controller_would_run() {
+    let times = vec![0.0, 0.5, 2.0];
+    let positions = vec![[0.0, 1.0], [1.0, 0.0], [3.0, 0.5]];
+    let velocities = vec![[0.0, 0.0], [1.5, -1.0], [0.0, 2.0]];
+    let accelerations = vec![[0.5, 0.0], [-1.0, 1.0], [0.0, 3.0]];
+    let samples = |v: bool, a: bool| Samples {
+        times: times.clone(),
+        positions: positions.clone(),
+        velocities: v.then(|| velocities.clone()),
+        accelerations: a.then(|| accelerations.clone()),
+    };
+    for (v, a, curve) in
+        [(false, false, Curve::Linear), (true, false, Curve::Cubic), (true, true, Curve::Quintic)]
+    {
+        let (motion, found) = interpolate(&samples(v, a)).unwrap();
+        assert_eq!((found, motion.pieces().len()), (curve, 2));
+        for (i, piece) in motion.pieces().iter().enumerate() {
+            for (state, row) in [(piece.at(0.0), i), (piece.at(piece.duration), i + 1)] {
+                assert!(near(state.position, positions[row], 1e-12));
+                assert!(!v || near(state.velocity, velocities[row], 1e-12));
+                assert!(!a || near(state.acceleration, accelerations[row], 1e-11));
+            }
+        }
+    }
+    let empty = Samples::<2> { times: vec![], positions: vec![], velocities: None, accelerations: None };
+    assert_eq!(interpolate(&empty), Err(SamplesError::Rows { found: 0 }));
+    let mut turned = samples(false, false);
+    turned.times[2] = 0.5;
+    assert!(matches!(interpolate(&turned), Err(SamplesError::Times { row: 3, .. })));
+    let mut lost = samples(true, false);
+    lost.positions[1][0] = f64::NAN;
+    assert_eq!(interpolate(&lost), Err(SamplesError::NotFinite { row: 2 }));
+    let mut fewer = samples(true, true);
+    fewer.accelerations = Some(vec![[0.0; 2]]);
+    assert!(matches!(
+        interpolate(&fewer),
+        Err(SamplesError::Counts { what: "accelerations", found: 1, rows: 3 })
+    ));
+}
+
+#[test]
+fn lengths_of_a_motion_are_those_of_its_curve() {
+    use elbowroom::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
+    use elbowroom::geometry::Point;
+    let free = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
+    let arm = TwoLinkArm::new(Point::new(0.3, -0.1), [0.4, 0.2], 0.0, [free; 2]).unwrap();
+    let vias = vias_at(&[Configuration([0.2, 0.5]), Configuration([1.7, 0.5])]);
+    let motion = Motion::new(quintic_through(&vias, &[2.0])).unwrap();
+    // Joint 1 alone: the tip goes round a circle about the base.
+    let radius = arm.tip(&Configuration([0.2, 0.5])).distance(arm.base());
+    assert!((motion.tip_length(&arm) - 1.5 * radius).abs() < 1e-9);
+    assert!((motion.joint_length() - 1.5).abs() < 1e-9);
+    let mut numbers = Numbers(9);
+    for _ in 0..100 {
+        let vias = vias_at(&numbers.configurations(5));
+        let motion = Motion::new(quintic_through(&vias, &durations_by_length(&vias, 3.0))).unwrap();
+        let samples: Vec<_> =
+            (0..=40_000).map(|i| motion.at(3.0 * f64::from(i) / 40_000.0).position).collect();
+        let joints: f64 = samples.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
+        let tips: Vec<_> = samples.iter().map(|q| arm.tip(&Configuration(*q))).collect();
+        let tip: f64 = tips.windows(2).map(|w| w[0].distance(w[1])).sum();
+        assert!((motion.joint_length() - joints).abs() < 1e-5 * joints);
+        assert!((motion.tip_length(&arm) - tip).abs() < 1e-5 * tip, "{} {tip}", motion.tip_length(&arm));
     }
 }

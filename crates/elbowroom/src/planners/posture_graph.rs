@@ -100,11 +100,15 @@ impl<'a> PostureGraph<'a> {
             if let Some(from) = places.last().copied() {
                 let mut between = Vec::new();
                 // Rounding may refuse in this direction what was certified in the other; the verifier decides.
-                if self.connect(&from, &to, MOST_HALVINGS, &mut between) {
-                    places.extend(between);
+                if !self.connect(&from, &to, MOST_HALVINGS, &mut between) {
+                    between.clear();
                 }
-                let last = places.last().copied().unwrap_or(from);
-                places.push(direct(&self.scene.arm, &last, &to)?);
+                // Turns are counted from place to place: what lies between was certified so.
+                let mut last = from;
+                for next in between.iter().chain([&to]) {
+                    last = direct(&self.scene.arm, &last, next)?;
+                    places.push(last);
+                }
             } else {
                 places.push(to);
             }

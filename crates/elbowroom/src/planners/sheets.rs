@@ -9,6 +9,9 @@ use crate::scene::Scene;
 /// Rounding in the count of turns: a range of exactly one turn has one sheet, not two.
 const TURN_ROUNDING: f64 = 1e-9;
 
+/// Most that a joint turns in one step (rad): at half a turn rounding would say which way round.
+const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
+
 /// The free configurations over the grid, laid out in sheets, one per posture, and more where a joint with stops can
 /// turn more than once round. What is asked of a node is worked out once and kept; a node never asked for costs
 /// four bytes.
@@ -143,7 +146,7 @@ fn turns(limits: &JointLimits) -> usize {
 
 /// The configuration that `to` is when the joints turn there from `from` directly: a continuous joint the
 /// short way, with its turns counted; one with stops by the plain difference. `None` when a joint would
-/// turn by more than half a turn, which no single step of a path does.
+/// turn by half a turn or more, which no single step of a path needs.
 pub(crate) fn direct(
     arm: &TwoLinkArm,
     from: &Configuration<2>,
@@ -153,6 +156,6 @@ pub(crate) fn direct(
         JointLimits::Continuous => angle_difference(from.0[j], to.0[j]),
         JointLimits::Range { .. } => to.0[j] - from.0[j],
     });
-    let short = steps.iter().all(|step| step.abs() <= std::f64::consts::PI);
+    let short = steps.iter().all(|step| step.abs() <= MOST_TURN);
     short.then(|| Configuration(std::array::from_fn(|j| from.0[j] + steps[j])))
 }
