@@ -10,13 +10,14 @@ mod worlds;
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use elbowroom::arm::Configuration;
 use elbowroom::free_space::FreeSpace;
 use elbowroom::planners::{
     ASSUMED_LIMITS, Objective, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
 };
 use elbowroom::scene::Scene;
 use elbowroom::swarm::GuidedSwarmSettings;
-use elbowroom::trajectory::Piece;
+use elbowroom::trajectory::{Piece, SpeedLimits, fastest_durations, quintic_through, vias_at};
 use rayon::prelude::*;
 
 fn settings(seed: u64) -> PlanSettings {
@@ -165,6 +166,46 @@ fn a_hundred_thousand_worlds() {
     assert_eq!((outcome.unsafe_motions, outcome.failed, outcome.posture_jumps), (0, 0, 0));
     assert_eq!(outcome.pieces_beyond_limits, 0);
     assert!(outcome.planned > 50_000);
+}
+
+/// Pieces of a random motion under random limits, and how many of them go beyond a limit or jump.
+fn random_motion(seed: u64) -> (u64, u64) {
+    let mut numbers = worlds::Numbers::seeded(seed);
+    let places: Vec<Configuration<2>> = (0..4 + numbers.below(12))
+        .map(|_| Configuration([numbers.within(-3.0, 3.0), numbers.within(-2.5, 2.5)]))
+        .collect();
+    let limit = |numbers: &mut worlds::Numbers| SpeedLimits {
+        velocity: numbers.within(0.2, 8.0),
+        acceleration: numbers.within(0.5, 40.0),
+        jerk: numbers.within(2.0, 400.0),
+    };
+    let limits = [limit(&mut numbers), limit(&mut numbers)];
+    let mut vias = vias_at(&places);
+    for via in &mut vias {
+        via.stop |= numbers.below(8) == 0;
+    }
+    let pieces = quintic_through(&vias, &fastest_durations(&vias, &limits));
+    let beyond = pieces.iter().filter(|piece| {
+        let over = |j: usize| {
+            let mut rate = derivative(&piece.coefficients[j]);
+            [limits[j].velocity, limits[j].acceleration, limits[j].jerk].into_iter().any(|limit| {
+                let most = greatest(&rate, piece.duration);
+                rate = derivative(&rate);
+                most > limit * (1.0 + 1e-12)
+            })
+        };
+        over(0) || over(1) || jumps_posture(piece)
+    });
+    (pieces.len() as u64, beyond.count() as u64)
+}
+
+#[test]
+#[ignore = "minutes: make campaign"]
+fn a_million_pieces() {
+    let sum = |a: (u64, u64), b: (u64, u64)| (a.0 + b.0, a.1 + b.1);
+    let (pieces, beyond) = (0..120_000u64).into_par_iter().map(random_motion).reduce(|| (0, 0), sum);
+    println!("pieces through random vias: {pieces}, beyond a limit or jumping posture: {beyond}");
+    assert!(pieces >= 1_000_000 && beyond == 0);
 }
 
 #[test]
