@@ -319,7 +319,7 @@ def compare(name: str, worlds: list[World], say: Callable[[str], None]) -> Itera
             scene = world.scene(step)
             try:
                 plan = er.plan(scene)
-            except er.NotFound:
+            except (er.NoPath, er.NotFound):
                 continue
             s = plan.sample()
             row.add(number, world, er.check(scene, t=s.t, q=s.q, v=s.v, a=s.a))

@@ -111,6 +111,8 @@ class Plan:
     @property
     def cost(self) -> float: ...
     @property
+    def lower_bound(self) -> float | None: ...
+    @property
     def path_cost(self) -> float: ...
     @property
     def paths_to_choose_from(self) -> int: ...
@@ -141,6 +143,7 @@ def plan(
     seed: int,
     candidates: int,
     duration: float | None = None,
+    gap: float | None = None,
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan: ...

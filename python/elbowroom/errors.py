@@ -116,10 +116,25 @@ class NotFree(ElbowroomError, ValueError):
         )
 
 
+class NoPath(ElbowroomError):
+    """It is proved that no motion does the task.
+
+    ``open`` holds, cell by cell, the corners (rad) of convex cells in the plane of both joints: together they hold every
+    configuration that can be reached from the start, and their outer walls are forbidden all along.
+    """
+
+    task: str
+    open: Sequence[Sequence[tuple[float, float]]]
+
+    def __init__(self, message: str, *, task: str, open: Sequence[Sequence[tuple[float, float]]]) -> None:
+        super().__init__(message, task=task, open=open)
+
+
 class NotFound(ElbowroomError):
     """No path at this resolution; it is not proved that there is none.
 
-    ``step`` is the distance between grid points (m) or, for ``optimal``, between joint angles (rad).
+    ``step`` is the distance between grid points (m) or, for ``optimal``, the least that paths kept from forbidden
+    joint angles (rad).
     """
 
     step: float

@@ -83,8 +83,12 @@ class Plan:
 
     @property
     def gap(self) -> float | None:
-        """How far ``cost`` may be above the best, as a share of it; None where unknown."""
-        return None if self.lower_bound is None else self.cost / self.lower_bound - 1.0 if self.cost > 0 else 0.0
+        """By which share of ``lower_bound`` the cost is above it: no motion is better by more; None where unknown."""
+        if self.lower_bound is None:
+            return None
+        if self.cost <= self.lower_bound:
+            return 0.0
+        return self.cost / self.lower_bound - 1.0 if self.lower_bound > 0.0 else None
 
     def sample(self, *, period: float = 0.01) -> Samples:
         """Return the motion every ``period`` (s), both ends included."""
@@ -121,6 +125,7 @@ def plan(
     seed: int = 0,
     candidates: int = 300,
     duration: float | None = None,
+    gap: float | None = None,
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan:
@@ -138,17 +143,22 @@ def plan(
         seed: Of the swarm.
         candidates: Paths the swarm draws.
         duration: How long the motion takes (s); None for as fast as the motion limits allow along the path.
+        gap: For ``optimal``: go on until the cost is no more than this share above the lower bound, or the timeout, or
+            nothing finer is left to try; the plan says what was reached.
         timeout: When to give up (s).
         on_stage: Called with the name of each stage as it begins.
 
     Raises:
         UnknownTask: The scene has no such task.
         NotFree: Start or goal is not free.
+        NoPath: It is proved that no motion does the task.
         NotFound: The grid does not connect them; a finer one may.
         TimedOut: The timeout came first.
         BadSetting: A setting makes no sense, or the duration is too short for the motion limits.
     """
     _check_counts(seed=seed, candidates=candidates)
+    if gap is not None and planner != "optimal":
+        raise BadSetting(f"gap is for the planner optimal, not for {planner}", setting="gap")
     task = only_task(scene, task)
     try:
         found = _core.plan(
@@ -159,12 +169,15 @@ def plan(
             seed=seed,
             candidates=candidates,
             duration=duration,
+            gap=gap,
             timeout=timeout,
             on_stage=on_stage,
         )
     except NotFree as error:
         raise located(scene, error) from None
     settings: dict[str, Any] = {"mode": "verified", "duration": "fastest" if duration is None else duration}
+    if gap is not None:
+        settings["gap"] = gap
     if planner == "dstar-pso":
         settings["candidates"] = candidates
     return Plan(
@@ -176,7 +189,7 @@ def plan(
         objective=objective,
         cost=found.cost,
         path_cost=found.path_cost,
-        lower_bound=None,
+        lower_bound=found.lower_bound,
         tip_path=found.tip_path,
         equal_paths=[found.tip_path],
         paths_to_choose_from=found.paths_to_choose_from,

@@ -153,9 +153,14 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::Start(refused) => not_free(py, task, "start", refused),
         PlanError::Goal(refused) => not_free(py, task, "goal", refused),
         PlanError::GoalPosture { .. } => setting(py, "posture", &message),
-        PlanError::NotFound { step } | PlanError::NotFoundOverJoints { step } => {
-            exception(py, "NotFound", &message, |fields| fields.set_item("step", step))
+        PlanError::NotFound { step: resolution } | PlanError::NotFoundOverJoints { distance: resolution } => {
+            exception(py, "NotFound", &message, |fields| fields.set_item("step", resolution))
         }
+        PlanError::NoPath(proof) => exception(py, "NoPath", &message, |fields| {
+            fields.set_item("task", task)?;
+            fields.set_item("open", &proof.open)
+        }),
+        PlanError::Gap { .. } => setting(py, "gap", &message),
         PlanError::Stopped => timed_out(py, timeout),
         PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
     }

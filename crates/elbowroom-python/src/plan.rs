@@ -26,6 +26,12 @@ impl Plan {
         self.plan.cost
     }
 
+    /// No motion costs less than this; ``None`` where nothing could be proved.
+    #[getter]
+    fn lower_bound(&self) -> Option<f64> {
+        self.plan.lower_bound
+    }
+
     /// Tip travel along the path that the motion was made from (m).
     #[getter]
     fn path_cost(&self) -> f64 {
@@ -97,11 +103,12 @@ impl Plan {
 /// Raises:
 ///     UnknownTask: The scene has no such task.
 ///     NotFree: Start or goal is not free.
+///     NoPath: It is proved that no motion does the task.
 ///     NotFound: The certified edges do not connect them.
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense, or the duration is too short.
 #[pyfunction]
-#[pyo3(signature = (scene, task, *, planner, objective, seed, candidates, duration=None, timeout=None, on_stage=None))]
+#[pyo3(signature = (scene, task, *, planner, objective, seed, candidates, duration=None, gap=None, timeout=None, on_stage=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
@@ -112,6 +119,7 @@ pub(crate) fn plan(
     seed: u64,
     candidates: usize,
     duration: Option<f64>,
+    gap: Option<f64>,
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
@@ -138,7 +146,7 @@ pub(crate) fn plan(
         }
     };
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let settings = PlanSettings { planner, objective, pace, seed };
+    let settings = PlanSettings { planner, objective, pace, seed, gap };
     let work = |watch: &watch::Watch| planners::plan(&scene.0, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;

@@ -4,7 +4,7 @@
 //! metres, angles in radians, times in seconds; positions are in the world frame.
 //!
 //! Modules import only from those before them:
-//! `geometry < grid < search < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
+//! `geometry < surface < grid < search < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
 
 pub mod arm;
 pub mod free_space;
@@ -14,6 +14,7 @@ pub mod path;
 pub mod planners;
 pub mod scene;
 pub mod search;
+pub mod surface;
 pub mod swarm;
 pub mod trajectory;
 pub mod verify;

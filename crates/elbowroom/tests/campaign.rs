@@ -34,6 +34,7 @@ fn settings(seed: u64) -> PlanSettings {
 #[derive(Debug, Default, Clone, Copy)]
 struct Outcome {
     planned: u64,
+    without_path: u64,
     not_found: u64,
     refused: u64,
     without_task: u64,
@@ -49,6 +50,7 @@ impl Outcome {
     fn plus(self, other: Self) -> Self {
         Self {
             planned: self.planned + other.planned,
+            without_path: self.without_path + other.without_path,
             not_found: self.not_found + other.not_found,
             refused: self.refused + other.refused,
             without_task: self.without_task + other.without_task,
@@ -75,6 +77,7 @@ fn outcome(seed: u64) -> Outcome {
             }
             judge_pieces(&scene, &plan, &mut outcome);
         }
+        Err(PlanError::NoPath(_)) => outcome.without_path = 1,
         Err(PlanError::NotFound { .. }) => outcome.not_found = 1,
         Err(PlanError::Start(_) | PlanError::Goal(_) | PlanError::GoalPosture { .. }) => outcome.refused = 1,
         Err(error) => {

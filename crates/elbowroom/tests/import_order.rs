@@ -6,8 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each may import from those before it, and from none after it.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "geometry",
+    "surface",
     "grid",
     "search",
     "swarm",

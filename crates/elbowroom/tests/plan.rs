@@ -104,7 +104,7 @@ fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
 
 #[test]
 fn motions_in_random_worlds_are_safe_by_another_judge() {
-    let (mut planned, mut not_found, mut refused) = (0, 0, 0);
+    let (mut planned, mut without_path, mut not_found, mut refused) = (0, 0, 0, 0);
     for seed in 0..1_500 {
         let Some(scene) = worlds::world(seed) else { continue };
         let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
@@ -119,12 +119,16 @@ fn motions_in_random_worlds_are_safe_by_another_judge() {
                 planned += 1;
                 assert_true(&scene, &scene.tasks[0], &plan);
             }
+            Err(PlanError::NoPath(_)) => without_path += 1,
             Err(PlanError::NotFound { .. } | PlanError::NotFoundOverJoints { .. }) => not_found += 1,
             Err(PlanError::GoalPosture { .. } | PlanError::Start(_) | PlanError::Goal(_)) => refused += 1,
             Err(other) => panic!("world {seed}: {other}"),
         }
     }
-    assert!(planned > 800 && not_found > 20, "{planned} planned, {not_found} not found, {refused} refused");
+    assert!(
+        planned > 800 && without_path > 20 && not_found > 20,
+        "{planned} planned, {without_path} without a path, {not_found} not found, {refused} refused"
+    );
 }
 
 #[test]
@@ -280,7 +284,7 @@ fn a_flip_passes_through_full_stretch() {
     let there = plan.trajectory.motion().at(changes[0]);
     assert!(there.position[1].abs() < 1e-6, "{there:?}");
     scene.tasks[0].posture = TaskPosture::Keep;
-    assert!(matches!(run(&scene, &dstar()), Err(PlanError::NotFound { .. })));
+    assert!(matches!(run(&scene, &dstar()), Err(PlanError::NoPath(_))));
 }
 
 #[test]

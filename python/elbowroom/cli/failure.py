@@ -17,10 +17,13 @@ def reported() -> Iterator[None]:
     """Turn what elbowroom raises into a line on stderr and an exit code."""
     import typer
 
-    from elbowroom.errors import ElbowroomError, InternalError, NotFound, TimedOut
+    from elbowroom.errors import ElbowroomError, InternalError, NoPath, NotFound, TimedOut
 
     try:
         yield
+    except NoPath as error:
+        tell(str(error))
+        raise typer.Exit(NO_PATH) from None
     except (NotFound, TimedOut) as error:
         tell(str(error))
         raise typer.Exit(NOTHING_FOUND) from None

@@ -18,6 +18,9 @@ def plan_command(
     seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
     duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
+    gap: Annotated[
+        float | None, typer.Option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %).")
+    ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
     animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
@@ -47,6 +50,7 @@ def plan_command(
                 seed=seed,
                 timeout=timeout,
                 duration=seconds,
+                gap=gap,
                 on_stage=show,
             )
             written: list[Path] = []

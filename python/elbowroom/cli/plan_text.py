@@ -20,6 +20,10 @@ def in_words(plan: Plan) -> str:
         f"cost {plan.cost:.6f} {UNITS[plan.objective]}; motion of {plan.motion.duration:.3f} s "
         f"through {len(plan.vias)} via points{stops}",
     ]
+    if plan.lower_bound is not None and plan.gap is not None:
+        lines.append(
+            f"no motion costs less than {plan.lower_bound:.6f}: this one is within {100 * plan.gap:.2f} % of the best"
+        )
     if plan.verdict is not None:
         lines += verdict_lines(plan.verdict)
     if plan.assumed_limits:

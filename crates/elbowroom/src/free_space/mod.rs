@@ -6,10 +6,13 @@ mod fill;
 mod fill_shape;
 mod map;
 mod place;
+mod slices;
 mod space;
 mod state;
 
 pub use map::{FreeSpaceMap, Reasons};
 pub use place::{NotFree, Reason, configurations};
+pub use slices::Slices;
+pub(crate) use slices::merged;
 pub use space::{Cases, FreeSpace};
 pub use state::{CONTACT_FLOOR, CellState, state_of};

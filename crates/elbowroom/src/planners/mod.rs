@@ -1,7 +1,8 @@
 //! From a task to a plan.
 
+mod bound;
+mod chart;
 mod choose;
-mod joint_grid;
 mod limits;
 mod monitor;
 mod optimal;
@@ -19,6 +20,6 @@ mod union_graph;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
-pub use plan::{Plan, PlanError};
+pub use plan::{NoPath, Plan, PlanError};
 pub use posture_true::{NEARLY_EQUAL, plan};
 pub use settings::{Objective, Pace, PlanSettings, Planner};

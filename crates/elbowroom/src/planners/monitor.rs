@@ -1,6 +1,8 @@
 /// A part of the work, in the order of the data flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stage {
+    /// What no motion can cost less than.
+    Bound,
     /// The map of where the tip may stand.
     FreeSpace,
     /// D* from the goal.
@@ -17,6 +19,7 @@ impl Stage {
     /// The word for it in files: `free_space`, `cost_to_go`, ...
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Bound => "bound",
             Self::FreeSpace => "free_space",
             Self::CostToGo => "cost_to_go",
             Self::TipPath => "tip_path",

@@ -1,62 +1,56 @@
-//! Paths that leave the grid of the tip: searched over the joints, or over the tip for tip travel, then pulled taut.
+//! Paths that leave the grid of the tip: the shortest over what is surely free of the plane of both joints, pulled
+//! taut; and paths of the grid, pulled taut in the plane of the tip.
 
-use super::joint_grid::JointGrid;
+use super::bound::measure_of;
+use super::chart::{JointChart, Walls, sheet_ranges};
 use super::problem::Problem;
 use super::pull::{Plane, Pull};
 use super::settings::Objective;
-use super::sheets::direct;
 use super::{Monitor, PlanError, Stage};
 use crate::arm::Configuration;
-use crate::path::JointPath;
+use crate::path::{JointPath, sweep_is_free};
 use crate::scene::Scene;
-use crate::search::{Dstar, Graph, Progress, Until};
+use crate::surface::{Measure, SurfacePlace, TautPath, taut_path};
 use crate::trajectory::SpeedLimits;
+use crate::verify::images;
 
-/// Distances between angles that are tried, coarsest first (rad).
-const STEPS: [f64; 4] = [0.035, 0.0175, 0.009, 0.0045];
-
-/// How many of the steps from the first that finds a way are taken.
-const STEPS_WITH_A_PATH: usize = 2;
-
-/// Clearance that taut lines keep where they can (m): room for the motion to be smooth in; and none.
+/// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
 const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 
 /// Longest turn of a straight line of the tip, in grid steps.
 const TIP_TURN: f64 = 0.5;
 
-/// Expansions of D* between two looks at the monitor: a few milliseconds.
-const EXPANSIONS_PER_LOOK: usize = 1_000;
+/// Two turns one after the other are one where the place between them is this near to the straight one (rad).
+const STRAIGHT: f64 = 1e-9;
 
-/// Taut paths over the joints, by objective: joint travel, or time with each joint at its greatest speed.
+/// Taut paths over the joints that stay `distance` (rad) away from what is forbidden, by objective: joint travel, or
+/// time with each joint at its greatest speed.
 pub(crate) fn over_joints(
     scene: &Scene,
     problem: &Problem,
     objective: Objective,
     limits: &[SpeedLimits; 2],
+    distance: f64,
     monitor: &impl Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
     let weights = match objective {
         Objective::Tip | Objective::Joint => [1.0; 2],
         Objective::Time => limits.map(|limit| 1.0 / limit.velocity),
     };
-    let mut found = Vec::new();
-    let mut steps_with_a_path = 0;
-    let mut finest = f64::INFINITY;
-    for step in STEPS {
+    let measure = measure_of(objective, limits);
+    let mut found: Vec<JointPath> = Vec::new();
+    for margin in MARGINS {
         monitor.stage(Stage::CostToGo);
-        let Some(mut graph) = JointGrid::new(scene, step, weights, problem.may_flip) else { break };
-        finest = step;
-        if let Some(path) = shortest(scene, problem, &mut graph, monitor)? {
-            monitor.stage(Stage::JointPath);
-            found.extend(taut(scene, &path, Plane::Joints(weights), monitor)?);
-            steps_with_a_path += 1;
-        }
-        if steps_with_a_path == STEPS_WITH_A_PATH {
-            break;
+        let Some(path) = shortest(scene, problem, measure, margin, distance, monitor)? else { continue };
+        monitor.stage(Stage::JointPath);
+        let pull = Pull { scene, plane: Plane::Joints(weights), margin };
+        let path = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
+        if !found.contains(&path) {
+            found.push(path);
         }
     }
     if found.is_empty() {
-        return Err(PlanError::NotFoundOverJoints { step: finest });
+        return Err(PlanError::NotFoundOverJoints { distance });
     }
     Ok(found)
 }
@@ -68,22 +62,10 @@ pub(crate) fn over_tips(
     monitor: &impl Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
     monitor.stage(Stage::JointPath);
-    taut(scene, path, Plane::Tip(TIP_TURN * scene.grid.step()), monitor)
-}
-
-fn taut(
-    scene: &Scene,
-    path: &JointPath,
-    plane: Plane,
-    monitor: &impl Monitor,
-) -> Result<Vec<JointPath>, PlanError> {
-    let pulled = MARGINS.map(|margin| {
-        let pull = Pull { scene, plane, margin };
-        pull.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)
-    });
     let mut found: Vec<JointPath> = Vec::new();
-    for path in pulled {
-        let path = path?;
+    for margin in MARGINS {
+        let pull = Pull { scene, plane: Plane::Tip(TIP_TURN * scene.grid.step()), margin };
+        let path = pull.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
         if !found.contains(&path) {
             found.push(path);
         }
@@ -91,33 +73,66 @@ fn taut(
     Ok(found)
 }
 
-/// The shortest way over the grid of joint angles, or `None` if it does not connect starts and goals.
+/// The shortest way over cells that are free with `margin` (m) to spare, certified; `None` if they do not connect
+/// starts and goals, or a turn is not free after all.
 fn shortest(
     scene: &Scene,
     problem: &Problem,
-    graph: &mut JointGrid<'_>,
+    measure: Measure,
+    margin: f64,
+    distance: f64,
     monitor: &impl Monitor,
 ) -> Result<Option<JointPath>, PlanError> {
-    let goals: Vec<usize> = problem.goals.iter().map(|q| graph.insert(*q)).collect();
-    let starts: Vec<usize> = problem.starts.iter().map(|q| graph.insert(*q)).collect();
-    let mut field = Dstar::new(graph.len());
-    for &goal in &goals {
-        field.insert_goal(goal, 0.0)?;
-    }
-    for &start in &starts {
-        while field.expand(graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
-            if !monitor.keep_going() {
+    let keep_going = || monitor.keep_going();
+    let walls = Walls { inside: false, distance };
+    let mut best: Option<(f64, JointPath)> = None;
+    for range in sheet_ranges(scene, &problem.starts, problem.may_flip) {
+        let chart = JointChart::new(scene, margin, range, walls, &keep_going).ok_or(PlanError::Stopped)?;
+        let places = |ends: &[Configuration<2>]| -> Vec<(Configuration<2>, SurfacePlace)> {
+            ends.iter().filter_map(|q| Some((*q, chart.place(q)?))).collect()
+        };
+        let (starts, goals) = (places(&problem.starts), places(&problem.goals));
+        let [from, to] =
+            [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
+        let images = images(scene, &chart.surface, &to);
+        let Some(path) = taut_path(&chart.surface, &from, &to, measure, &images, &keep_going) else {
+            if !keep_going() {
                 return Err(PlanError::Stopped);
             }
+            continue;
+        };
+        if best.as_ref().is_none_or(|(cost, _)| path.cost < *cost) {
+            best = along(&path, &starts).map(|joints| (path.cost, joints)).or(best);
         }
     }
-    let best = starts.into_iter().min_by(|&a, &b| field.cost_to_go(a).total_cmp(&field.cost_to_go(b)));
-    let Some(nodes) = best.and_then(|start| field.path(start)) else { return Ok(None) };
-    let mut places: Vec<Configuration<2>> = Vec::with_capacity(nodes.len());
-    for node in nodes {
-        let to = graph.configuration(node);
-        let next = places.last().map_or(Some(to), |from| direct(&scene.arm, from, &to));
-        places.extend(next);
+    Ok(best.map(|(_, path)| path).filter(|path| {
+        path.0.windows(2).all(|pair| keep_going() && sweep_is_free(scene, &pair[0], &pair[1]))
+    }))
+}
+
+/// `path` in configurations, from the start it begins at; turns of continuous joints are counted.
+fn along(path: &TautPath, starts: &[(Configuration<2>, SurfacePlace)]) -> Option<JointPath> {
+    let first = path.places.first()?;
+    let (start, place) = starts.iter().find(|(_, place)| place == first)?;
+    let turned = [start.0[0] - place.point.x, start.0[1] - place.point.y];
+    let mut places: Vec<Configuration<2>> = vec![*start];
+    for (place, shift) in path.places.iter().zip(&path.shifts).skip(1) {
+        let to = Configuration([place.point.x - shift.x + turned[0], place.point.y - shift.y + turned[1]]);
+        if let [.., before, last] = places.as_slice()
+            && is_straight(before, last, &to)
+        {
+            places.pop();
+        }
+        if places.last().is_none_or(|last| last.distance(&to) > STRAIGHT) {
+            places.push(to);
+        }
     }
-    Ok(Some(JointPath(places)))
+    (places.len() > 1).then_some(JointPath(places))
+}
+
+/// Whether `middle` lies on the straight turn from `from` to `to`, nearly.
+fn is_straight(from: &Configuration<2>, middle: &Configuration<2>, to: &Configuration<2>) -> bool {
+    let [a, b] = [0, 1].map(|j| middle.0[j] - from.0[j]);
+    let [c, d] = [0, 1].map(|j| to.0[j] - from.0[j]);
+    (a * d - b * c).abs() <= STRAIGHT * c.hypot(d) && a * c + b * d >= 0.0
 }

@@ -14,6 +14,8 @@ use crate::verify::{Trajectory, Verdict};
 pub struct Plan {
     /// What the motion costs, in terms of the objective: metres, radians or seconds.
     pub cost: f64,
+    /// No motion costs less than this, proved by the verifier; `None` where it could not prove anything.
+    pub lower_bound: Option<f64>,
     /// Length of the path that the motion was made from, tip travel along its edges (m).
     pub path_cost: f64,
     /// How many different paths the choice was among.
@@ -30,6 +32,27 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// Motion limits that the scene does not state, and what was taken in their place.
     pub assumed_limits: Vec<AssumedLimit>,
+}
+
+impl Plan {
+    /// How much more it costs than the lower bound, as a share of it: no motion is better by more. `None` where there
+    /// is no bound.
+    pub fn gap(&self) -> Option<f64> {
+        let bound = self.lower_bound?;
+        if self.cost <= bound {
+            return Some(0.0);
+        }
+        (bound > 0.0).then(|| self.cost / bound - 1.0)
+    }
+}
+
+/// The proof that no motion does a task: what can be reached from the start lies within cells whose walls are
+/// forbidden all along, and no goal lies there.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("no path: proved, forbidden configurations part all that the start can reach from the goal")]
+pub struct NoPath {
+    /// Corners of convex cells that hold all configurations that can be reached (rad), each counter-clockwise.
+    pub open: Vec<Vec<[f64; 2]>>,
 }
 
 /// Why there is no plan.
@@ -72,11 +95,20 @@ pub enum PlanError {
         /// Distance between grid points (m).
         step: f64,
     },
-    /// No grid of joint angles that was tried connects start and goal.
-    #[error("not found at this resolution: no certified path over joint angles {step} rad apart")]
+    /// What the planner took to be free, this much less than all that is, does not connect start and goal.
+    #[error("not found at this resolution: no certified path {distance} rad away from all obstacles")]
     NotFoundOverJoints {
-        /// Distance between the angles of the finest grid (rad).
-        step: f64,
+        /// Least distance kept from forbidden angles (rad).
+        distance: f64,
+    },
+    /// No motion does it: proved.
+    #[error("{0}")]
+    NoPath(NoPath),
+    /// The gap to be reached makes no sense.
+    #[error("gap is {gap}, it must be 0 or greater")]
+    Gap {
+        /// What was asked.
+        gap: f64,
     },
     /// The monitor stopped it.
     #[error("stopped before a path was found")]

@@ -1,7 +1,8 @@
 //! Planning on places and postures: what comes out is a motion that the verifier has proved to be safe.
 
+use super::bound::{Proved, prove};
 use super::choose::shortlist;
-use super::limits::{motion_limits, stated_limits};
+use super::limits::{AssumedLimit, motion_limits, stated_limits};
 use super::optimal::{over_joints, over_tips};
 use super::posture_graph::PostureGraph;
 use super::problem::Problem;
@@ -39,11 +40,19 @@ const WORTH_STOPPING: f64 = 0.005;
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
+/// How far inside the obstacles the walls of a lower bound stand (rad), and before them those of the free cells: one
+/// after the other until there is a path, or a proof that there is none.
+const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// The same for planners that do not go by it: a bound that costs a millisecond or two.
+const COARSE_DISTANCE: f64 = 1e-2;
+
 /// Plans `task`: a path over (place, posture) whose every step is certified free, and a motion along it that the
 /// verifier accepts.
 ///
 /// # Errors
-/// [`PlanError`]; a missing path is [`PlanError::NotFound`], not proved here.
+/// [`PlanError`]; a missing path is [`PlanError::NoPath`] where that is proved, else [`PlanError::NotFound`] or
+/// [`PlanError::NotFoundOverJoints`].
 pub fn plan(
     scene: &Scene,
     task: &Task,
@@ -53,65 +62,156 @@ pub fn plan(
     check(settings)?;
     let problem = Problem::new(scene, task)?;
     let (limits, assumed_limits) = motion_limits(&scene.arm);
+    let work = Work { scene, problem, settings, limits, assumed_limits, monitor };
+    if let Some(q) = work.problem.already_there() {
+        let path = JointPath(vec![q]);
+        let stay = vec![Candidate { path, tip_travel: 0.0, tolerance: GRID_TOLERANCE }];
+        return work.motion_along(Found { candidates: stay, paths: 1 }, Some(0.0));
+    }
+    match settings.planner {
+        Planner::Optimal => work.optimal(),
+        Planner::Dstar | Planner::DstarPso(_) => work.over_grid(),
+    }
+}
 
-    let found = match problem.already_there() {
-        Some(q) => {
-            let path = JointPath(vec![q]);
-            Found {
-                candidates: vec![Candidate { path, tip_travel: 0.0, tolerance: GRID_TOLERANCE }],
-                paths: 1,
-            }
-        }
-        None => match settings.planner {
-            Planner::Optimal => taut(scene, &problem, settings.objective, &limits, monitor)?,
-            Planner::Dstar | Planner::DstarPso(_) => shortest(scene, &problem, settings, &limits, monitor)?,
-        },
-    };
+/// A task in the making.
+struct Work<'a, M: Monitor> {
+    scene: &'a Scene,
+    problem: Problem,
+    settings: &'a PlanSettings,
+    limits: [SpeedLimits; 2],
+    assumed_limits: Vec<AssumedLimit>,
+    monitor: &'a M,
+}
 
-    monitor.stage(Stage::Trajectory);
-    let stated = stated_limits(&scene.arm);
-    let mut best: Option<Plan> = None;
-    let mut refused = PlanError::Stopped;
-    for Candidate { path: joint_path, tip_travel, tolerance } in found.candidates {
-        let flowing = Style::Flowing { tolerance };
-        let smooth = |style| smooth(scene, &joint_path, &limits, &stated, settings.pace, style, monitor);
-        let smoothed = match smooth(flowing) {
-            // Straight turns are refused only where the duration is too short for so many stops.
-            Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
-                smooth(Style::StopToStop).unwrap_or(smoothed)
-            }
-            Ok(smoothed) => smoothed,
-            Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
-            Err(error) => {
-                refused = in_terms_of(settings.pace, error);
-                continue;
-            }
-        };
-        let cost = cost(scene, settings.objective, &smoothed.trajectory);
-        let clearance = |trajectory: &Trajectory| {
-            trajectory.verdict().least_clearance.map_or(f64::INFINITY, |least| least.distance)
-        };
-        let better = best.as_ref().is_none_or(|known| {
-            let slack = SAME_COST * known.cost;
-            cost < known.cost - slack
-                || (cost <= known.cost + slack
-                    && clearance(&smoothed.trajectory) > clearance(&known.trajectory))
-        });
-        if better {
-            best = Some(Plan {
-                cost,
-                path_cost: tip_travel,
-                paths_to_choose_from: found.paths,
-                tip_path: joint_path.tips(&scene.arm),
-                joint_path,
-                vias: smoothed.vias,
-                stops: smoothed.stops,
-                trajectory: smoothed.trajectory,
-                assumed_limits: assumed_limits.clone(),
-            });
+impl<M: Monitor> Work<'_, M> {
+    /// The least cost with walls at `distance` (rad), if any was proved.
+    ///
+    /// # Errors
+    /// [`PlanError::NoPath`], [`PlanError::Stopped`]
+    fn bound(&self, distance: f64) -> Result<Option<f64>, PlanError> {
+        self.monitor.stage(Stage::Bound);
+        let objective = self.settings.objective;
+        match prove(self.scene, &self.problem, objective, &self.limits, distance, self.monitor)? {
+            Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
+            Proved::AtLeast(cost) => Ok(Some(cost)),
+            Proved::Nothing => Ok(None),
         }
     }
-    best.ok_or(refused)
+
+    fn over_grid(&self) -> Result<Plan, PlanError> {
+        let bound = self.bound(COARSE_DISTANCE)?;
+        match shortest(self.scene, &self.problem, self.settings, &self.limits, self.monitor) {
+            Ok(found) => self.motion_along(found, bound),
+            Err(not_found @ PlanError::NotFound { .. }) => {
+                for distance in DISTANCES {
+                    self.bound(distance)?;
+                    // Where there is a path off the grid nothing can be proved against one.
+                    let off_grid = over_joints(
+                        self.scene,
+                        &self.problem,
+                        Objective::Joint,
+                        &self.limits,
+                        distance,
+                        self.monitor,
+                    );
+                    match off_grid {
+                        Ok(_) => break,
+                        Err(PlanError::NotFoundOverJoints { .. }) => {}
+                        Err(other) => return Err(other),
+                    }
+                }
+                Err(not_found)
+            }
+            Err(other) => Err(other),
+        }
+    }
+
+    /// Paths that leave the grid, ever nearer to the obstacles until there is one and the gap is small enough.
+    fn optimal(&self) -> Result<Plan, PlanError> {
+        let mut best: Option<Plan> = None;
+        let mut bound = None;
+        let mut last = PlanError::Stopped;
+        for distance in DISTANCES {
+            let step = self.bound(distance).and_then(|proved| {
+                bound = [bound, proved].into_iter().flatten().reduce(f64::max);
+                let found = taut(
+                    self.scene,
+                    &self.problem,
+                    self.settings.objective,
+                    &self.limits,
+                    distance,
+                    self.monitor,
+                )?;
+                self.motion_along(found, bound)
+            });
+            match step {
+                Ok(plan) if best.as_ref().is_none_or(|known| plan.cost < known.cost) => best = Some(plan),
+                Ok(_) => {}
+                Err(error @ PlanError::NotFoundOverJoints { .. }) => last = error,
+                Err(PlanError::Stopped) if best.is_some() => break,
+                Err(error) => return Err(error),
+            }
+            if let Some(plan) = &mut best {
+                plan.lower_bound = bound;
+                if self.settings.gap.is_none_or(|gap| plan.gap().is_some_and(|reached| reached <= gap)) {
+                    break;
+                }
+            }
+        }
+        best.ok_or(last)
+    }
+
+    /// The best verified motion along any of the paths.
+    fn motion_along(&self, found: Found, lower_bound: Option<f64>) -> Result<Plan, PlanError> {
+        let (scene, settings, monitor) = (self.scene, self.settings, self.monitor);
+        monitor.stage(Stage::Trajectory);
+        let stated = stated_limits(&scene.arm);
+        let mut best: Option<Plan> = None;
+        let mut refused = PlanError::Stopped;
+        for Candidate { path: joint_path, tip_travel, tolerance } in found.candidates {
+            let flowing = Style::Flowing { tolerance };
+            let smooth =
+                |style| smooth(scene, &joint_path, &self.limits, &stated, settings.pace, style, monitor);
+            let smoothed = match smooth(flowing) {
+                // Straight turns are refused only where the duration is too short for so many stops.
+                Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
+                    smooth(Style::StopToStop).unwrap_or(smoothed)
+                }
+                Ok(smoothed) => smoothed,
+                Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
+                Err(error) => {
+                    refused = in_terms_of(settings.pace, error);
+                    continue;
+                }
+            };
+            let cost = cost(scene, settings.objective, &smoothed.trajectory);
+            let clearance = |trajectory: &Trajectory| {
+                trajectory.verdict().least_clearance.map_or(f64::INFINITY, |least| least.distance)
+            };
+            let better = best.as_ref().is_none_or(|known| {
+                let slack = SAME_COST * known.cost;
+                cost < known.cost - slack
+                    || (cost <= known.cost + slack
+                        && clearance(&smoothed.trajectory) > clearance(&known.trajectory))
+            });
+            if better {
+                best = Some(Plan {
+                    cost,
+                    lower_bound,
+                    path_cost: tip_travel,
+                    paths_to_choose_from: found.paths,
+                    tip_path: joint_path.tips(&scene.arm),
+                    joint_path,
+                    vias: smoothed.vias,
+                    stops: smoothed.stops,
+                    trajectory: smoothed.trajectory,
+                    assumed_limits: self.assumed_limits.clone(),
+                });
+            }
+        }
+        best.ok_or(refused)
+    }
 }
 
 /// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
@@ -131,6 +231,7 @@ fn taut(
     problem: &Problem,
     objective: Objective,
     limits: &[SpeedLimits; 2],
+    distance: f64,
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
     let on_grid = || {
@@ -142,7 +243,7 @@ fn taut(
         }
     };
     let over_joints = || -> Result<Vec<Candidate>, PlanError> {
-        let paths = over_joints(scene, problem, objective, limits, monitor)?;
+        let paths = over_joints(scene, problem, objective, limits, distance, monitor)?;
         Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
     };
     let candidates = match objective {
@@ -298,6 +399,9 @@ fn shortest(
 fn check(settings: &PlanSettings) -> Result<(), PlanError> {
     if let Planner::DstarPso(swarm) = &settings.planner {
         swarm.check()?;
+    }
+    if let Some(gap) = settings.gap.filter(|gap| gap.is_nan() || *gap < 0.0) {
+        return Err(PlanError::Gap { gap });
     }
     match settings.pace {
         Pace::Duration(duration) if !(duration.is_finite() && duration > 0.0) => {

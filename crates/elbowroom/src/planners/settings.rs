@@ -55,6 +55,9 @@ pub struct PlanSettings {
     pub pace: Pace,
     /// Seed of the swarm.
     pub seed: u64,
+    /// How far the cost may be above the lower bound, as a share of it, before [`Planner::Optimal`] stops trying to
+    /// do better.
+    pub gap: Option<f64>,
 }
 
 impl Default for PlanSettings {
@@ -64,6 +67,7 @@ impl Default for PlanSettings {
             objective: Objective::default(),
             pace: Pace::default(),
             seed: 0,
+            gap: None,
         }
     }
 }

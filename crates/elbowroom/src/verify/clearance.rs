@@ -76,6 +76,20 @@ impl<'a> Body<'a> {
         self.distance_while_turning(axis, 0.0)
     }
 
+    /// How far every point of the link may move (m) with the link still meeting the obstacle; minus the distance where
+    /// it does not meet it.
+    pub(super) fn depth(&self, axis: &Axis) -> f64 {
+        let hull = self.distance_of_hull(axis, 0.0);
+        match self.outline {
+            Outline::Disc => -hull,
+            Outline::Polygon(_) if hull > 0.0 => -hull,
+            Outline::Polygon(vertices) => {
+                let distance = polygon_distance(axis, 0.0, vertices);
+                if distance > 0.0 { -distance } else { polygon_depth(axis, vertices) }
+            }
+        }
+    }
+
     /// Least distance (m) that the link keeps while it turns about its start by no more than `turn` (rad)
     /// either way: the least of "distance - turn * way from the start" over the points of the link.
     pub(super) fn distance_while_turning(&self, axis: &Axis, turn: f64) -> f64 {
@@ -152,6 +166,34 @@ fn polygon_distance(axis: &Axis, turn: f64, vertices: &[Point]) -> f64 {
         (a, along_a, aside_a) = (b, along_b, aside_b);
     }
     if start_is_inside { -reach } else { least }
+}
+
+/// A link goes on crossing an edge while its ends stay on their sides of the edge's line and the edge's ends off the
+/// link; and an end of it stays inside while it moves less far than the boundary is.
+fn polygon_depth(axis: &Axis, vertices: &[Point]) -> f64 {
+    let tilt = Tilt::new(axis, 0.0);
+    let end = [axis.start[0] + axis.length * axis.along[0], axis.start[1] + axis.length * axis.along[1]];
+    let mut crossing = 0.0_f64;
+    let mut to_boundary = [f64::INFINITY; 2];
+    let mut inside = [false; 2];
+    let mut a = vertices[vertices.len() - 1];
+    for &b in vertices {
+        let (edge_x, edge_y) = (b.x - a.x, b.y - a.y);
+        let size = length([edge_x, edge_y]);
+        let sides = [axis.start, end].map(|p| (edge_x * (p[1] - a.y) - edge_y * (p[0] - a.x)) / size);
+        let ((along_a, aside_a), (along_b, aside_b)) = (tilt.place([a.x, a.y]), tilt.place([b.x, b.y]));
+        if (sides[0] > 0.0) != (sides[1] > 0.0) && (aside_a > 0.0) != (aside_b > 0.0) {
+            let off = tilt.distance(along_a, aside_a).min(tilt.distance(along_b, aside_b));
+            crossing = crossing.max(off.min(sides[0].abs()).min(sides[1].abs()));
+        }
+        for (i, p) in [axis.start, end].into_iter().enumerate() {
+            to_boundary[i] = to_boundary[i].min(distance_to_edge(p, a, b));
+            inside[i] ^= ray_meets_edge(p, a, b);
+        }
+        a = b;
+    }
+    let deepest_end = (0..2).filter(|&i| inside[i]).map(|i| to_boundary[i]).fold(0.0, f64::max);
+    crossing.max(deepest_end)
 }
 
 fn distance_to_edge(point: [f64; 2], a: Point, b: Point) -> f64 {

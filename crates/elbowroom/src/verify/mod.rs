@@ -6,6 +6,8 @@
 //! be told apart in it is refused.
 
 mod bernstein;
+mod blocked;
+mod bound;
 mod clearance;
 mod continuity;
 mod limits;
@@ -18,6 +20,8 @@ mod verdict;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
+pub(crate) use bound::images;
+pub use bound::{BoundError, OpenJoints, Reachability, bound_over_joints};
 pub use continuity::JUMP_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
 pub use trajectory::Trajectory;

@@ -37,7 +37,7 @@ fn disc(x: f64, y: f64, radius: f64) -> Obstacle {
 }
 
 /// A bar from `a` to `b`, `thick` wide.
-fn bar(a: [f64; 2], b: [f64; 2], thick: f64) -> Option<Obstacle> {
+pub(crate) fn bar(a: [f64; 2], b: [f64; 2], thick: f64) -> Option<Obstacle> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let length = dx.hypot(dy);
     let (nx, ny) = (-dy / length * thick / 2.0, dx / length * thick / 2.0);

@@ -1,0 +1,147 @@
+//! What no motion can cost less than, and tasks that no motion can do.
+
+use super::chart::{JointChart, Walls, sheet_ranges};
+use super::problem::Problem;
+use super::settings::Objective;
+use super::{Monitor, NoPath, PlanError};
+use crate::arm::{Configuration, JointLimits};
+use crate::geometry::wrap_angle;
+use crate::scene::Scene;
+use crate::surface::{Measure, SurfacePlace};
+use crate::trajectory::SpeedLimits;
+use crate::verify::{BoundError, OpenJoints, Reachability, bound_over_joints};
+
+/// What was proved of a task.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Proved {
+    /// No motion does it.
+    NoPath(NoPath),
+    /// No motion costs less, in terms of the objective.
+    AtLeast(f64),
+    /// The verifier accepted no walls.
+    Nothing,
+}
+
+/// How far inside the obstacles walls are tried, one after the other, as shares of what was asked.
+const TRIED: [f64; 3] = [1.0, 0.3, 3.0];
+
+/// What can be proved with walls about `distance` (rad) inside the obstacles.
+///
+/// # Errors
+/// [`PlanError::Stopped`]
+pub(crate) fn prove(
+    scene: &Scene,
+    problem: &Problem,
+    objective: Objective,
+    limits: &[SpeedLimits; 2],
+    distance: f64,
+    monitor: &impl Monitor,
+) -> Result<Proved, PlanError> {
+    let measure = measure_of(objective, limits);
+    for share in TRIED {
+        match with_walls(scene, problem, measure, share * distance, &|| monitor.keep_going()) {
+            Ok(OverJoints::Parted(open)) => return Ok(Proved::NoPath(NoPath { open })),
+            Ok(OverJoints::AtLeast(way)) => {
+                return Ok(Proved::AtLeast(match objective {
+                    Objective::Joint => way,
+                    Objective::Time => from_rest_to_rest(way, limits),
+                    Objective::Tip => tip_bound(scene, problem),
+                }));
+            }
+            Err(BoundError::Stopped) => return Err(PlanError::Stopped),
+            Err(_) => {}
+        }
+    }
+    Ok(Proved::Nothing)
+}
+
+/// What a way over the joints costs: for time, that of joints at their greatest speeds all along.
+pub(crate) fn measure_of(objective: Objective, limits: &[SpeedLimits; 2]) -> Measure {
+    match objective {
+        Objective::Tip | Objective::Joint => Measure::Euclidean,
+        Objective::Time => Measure::Greatest(limits.map(|limit| 1.0 / limit.velocity)),
+    }
+}
+
+/// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
+/// again: one of them covers all of it, and has to speed up and slow down.
+fn from_rest_to_rest(way: f64, limits: &[SpeedLimits; 2]) -> f64 {
+    let least = |limit: &SpeedLimits| {
+        let speeding_up = limit.velocity / limit.acceleration;
+        if way >= speeding_up { way + speeding_up } else { 2.0 * (way * speeding_up).sqrt() }
+    };
+    limits.iter().map(least).fold(f64::INFINITY, f64::min)
+}
+
+/// The straight way of the tip (m).
+fn tip_bound(scene: &Scene, problem: &Problem) -> f64 {
+    let tips = |places: &[Configuration<2>]| places.iter().map(|q| scene.arm.tip(q)).collect::<Vec<_>>();
+    let goals = tips(&problem.goals);
+    let straight = tips(&problem.starts)
+        .into_iter()
+        .flat_map(|start| goals.iter().map(move |goal| start.distance(*goal)));
+    straight.fold(f64::INFINITY, f64::min)
+}
+
+enum OverJoints {
+    /// Cells that can be reached from the starts.
+    Parted(Vec<Vec<[f64; 2]>>),
+    AtLeast(f64),
+}
+
+fn with_walls(
+    scene: &Scene,
+    problem: &Problem,
+    measure: Measure,
+    distance: f64,
+    keep_going: &dyn Fn() -> bool,
+) -> Result<OverJoints, BoundError> {
+    let walls = Walls { inside: true, distance };
+    let mut least = f64::INFINITY;
+    let mut open = Vec::new();
+    for range in sheet_ranges(scene, &problem.starts, problem.may_flip) {
+        let chart = JointChart::new(scene, 0.0, range, walls, keep_going).ok_or(BoundError::Stopped)?;
+        let (starts, goals) = (
+            on_chart(scene, &chart, range, &problem.starts)?,
+            on_chart(scene, &chart, range, &problem.goals)?,
+        );
+        let claim = OpenJoints {
+            surface: &chart.surface,
+            starts: &starts,
+            goals: &goals,
+            keeps_posture: !problem.may_flip,
+            margin: 0.0,
+        };
+        match bound_over_joints(scene, &claim, measure, keep_going)? {
+            Reachability::AtLeast { cost, .. } => least = least.min(cost),
+            Reachability::Parted => {
+                let reached = chart.surface.reached_from(starts.iter().map(|(_, place)| place.cell));
+                let cells = (0..chart.surface.len()).filter(|&cell| reached[cell]);
+                let corners = |cell| chart.surface.sides(cell).iter().map(|side| [side.from.x, side.from.y]);
+                open.extend(cells.map(|cell| corners(cell).collect()));
+            }
+        }
+    }
+    Ok(if least.is_finite() { OverJoints::AtLeast(least) } else { OverJoints::Parted(open) })
+}
+
+/// Where those of `places` that lie in `range` are on the chart.
+///
+/// # Errors
+/// [`BoundError::Place`] where one should be on it and is not.
+fn on_chart(
+    scene: &Scene,
+    chart: &JointChart,
+    range: [f64; 2],
+    places: &[Configuration<2>],
+) -> Result<Vec<(Configuration<2>, SurfacePlace)>, BoundError> {
+    let in_range = |q: &&Configuration<2>| {
+        let angle = match scene.arm.joints()[1].limits {
+            JointLimits::Continuous => wrap_angle(q.0[1]),
+            JointLimits::Range { .. } => q.0[1],
+        };
+        (range[0]..=range[1]).contains(&angle)
+    };
+    let place = |q: &Configuration<2>| Ok((*q, chart.place(q).ok_or(BoundError::Place { q: q.0 })?));
+    places.iter().filter(in_range).map(place).collect()
+}

@@ -1,0 +1,140 @@
+use crate::free_space::{Slices, merged};
+
+/// Most of the distance between a wall and the obstacle that may be lost or gained between two slices, as a share.
+const SLACK: f64 = 0.5;
+
+/// Width of the slabs that are begun with (rad).
+const WIDEST: f64 = 0.06;
+
+/// Width below which slabs are not cut any more, in distances between wall and obstacle.
+const NARROWEST: f64 = 0.1;
+
+/// How walls stand to the obstacles they stand for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Walls {
+    /// Whether they stand inside the obstacles, so that all that is free is open, or before them, so that all
+    /// that is open is free.
+    pub(crate) inside: bool,
+    /// How far (rad); nearer to what is thin.
+    pub(crate) distance: f64,
+}
+
+/// A stretch of the first joint between two slices.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slab {
+    /// From and to (rad).
+    pub(crate) x: [f64; 2],
+    /// What is closed, in order.
+    pub(crate) barriers: Vec<Barrier>,
+}
+
+/// A closed trapezoid of a slab: intervals of the second joint at both ends (rad); either may be a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Barrier {
+    pub(crate) left: [f64; 2],
+    pub(crate) right: [f64; 2],
+}
+
+/// Cuts one stretch of the first joint into slabs.
+pub(crate) struct Cutter<'a> {
+    pub(crate) slices: &'a Slices<'a>,
+    pub(crate) walls: Walls,
+    /// Where the second joint may be (rad).
+    pub(crate) range: [f64; 2],
+}
+
+/// A place of the first joint with what is closed there.
+#[derive(Clone)]
+struct Slice {
+    x: f64,
+    closed: Vec<[f64; 2]>,
+}
+
+impl Cutter<'_> {
+    /// Slabs from `from` to `to` (rad), each as wide as its walls stay near enough to the obstacles.
+    pub(crate) fn slabs(&self, from: f64, to: f64) -> Vec<Slab> {
+        let count = ((to - from) / WIDEST).ceil().max(1.0);
+        let mut slabs = Vec::new();
+        let mut left = self.slice(from);
+        for i in 1..=count as usize {
+            let x = if i as f64 == count { to } else { from + (to - from) * (i as f64 / count) };
+            let right = self.slice(x);
+            self.cut(&left, &right, &mut slabs);
+            left = right;
+        }
+        slabs
+    }
+
+    fn slice(&self, x: f64) -> Slice {
+        let [low, high] = self.range;
+        let Walls { inside, distance } = self.walls;
+        let mut closed: Vec<[f64; 2]> = Vec::new();
+        for [from, to] in self.slices.second_joint(x, self.range) {
+            let shift = if inside { distance.min((to - from) / 4.0) } else { -distance };
+            // At the end of the range, where it goes on or the stop is, there is no wall to be moved.
+            let from = if from <= low { low } else { (from + shift).max(low) };
+            let to = if to >= high { high } else { (to - shift).min(high) };
+            match closed.last_mut() {
+                Some(last) if from <= last[1] => last[1] = to,
+                _ => closed.push([from, to]),
+            }
+        }
+        Slice { x, closed }
+    }
+
+    fn cut(&self, left: &Slice, right: &Slice, slabs: &mut Vec<Slab>) {
+        let middle = self.slice(0.5 * (left.x + right.x));
+        let between = |share: f64| self.slice(left.x + (right.x - left.x) * share);
+        // An edge may bend off the middle: quarters tell.
+        let is_straight = self.is_straight(left, &middle, right, 0.5)
+            && [0.25, 0.75].into_iter().all(|share| self.is_straight(left, &between(share), right, share));
+        let barriers = if is_straight {
+            let ends = left.closed.iter().zip(&right.closed);
+            ends.map(|(&left, &right)| Barrier { left, right }).collect()
+        } else if right.x - left.x > NARROWEST * self.walls.distance {
+            self.cut(left, &middle, slabs);
+            self.cut(&middle, right, slabs);
+            return;
+        } else {
+            self.squared([left, &middle, right])
+        };
+        slabs.push(Slab { x: [left.x, right.x], barriers });
+    }
+
+    /// Whether what is closed goes straight from `left` to `right`, nearly, by what it is at `share` of the way.
+    fn is_straight(&self, left: &Slice, between: &Slice, right: &Slice, share: f64) -> bool {
+        let count = left.closed.len();
+        if [between.closed.len(), right.closed.len()] != [count; 2] {
+            return false;
+        }
+        (0..count).all(|i| {
+            let (a, m, b) = (left.closed[i], between.closed[i], right.closed[i]);
+            let near = SLACK * self.walls.distance.min((m[1] - m[0]) / 2.0);
+            let off = |end: usize| a[end] + (b[end] - a[end]) * share - m[end];
+            overlap(a, m) && overlap(m, b) && (0..2).all(|end| off(end).abs() <= near)
+        })
+    }
+
+    /// Rectangles of what is closed in all of the slices or, for walls before the obstacles, in any.
+    fn squared(&self, slices: [&Slice; 3]) -> Vec<Barrier> {
+        let [first, others @ ..] = slices;
+        let mut closed = first.closed.clone();
+        for other in others {
+            closed = if self.walls.inside {
+                in_both(&closed, &other.closed)
+            } else {
+                merged(closed.into_iter().chain(other.closed.iter().copied()).collect())
+            };
+        }
+        closed.into_iter().map(|ends| Barrier { left: ends, right: ends }).collect()
+    }
+}
+
+fn in_both(a: &[[f64; 2]], b: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let pairs = a.iter().flat_map(|a| b.iter().map(|b| [a[0].max(b[0]), a[1].min(b[1])]));
+    pairs.filter(|[from, to]| to > from).collect()
+}
+
+fn overlap(a: [f64; 2], b: [f64; 2]) -> bool {
+    a[0] <= b[1] && b[0] <= a[1]
+}

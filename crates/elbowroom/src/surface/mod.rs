@@ -1,0 +1,9 @@
+//! Shortest paths among walls on flat surfaces sewn together of convex cells.
+
+mod cells;
+mod measure;
+mod taut;
+
+pub use cells::{Across, Crossing, Side, Surface, SurfaceError};
+pub use measure::Measure;
+pub use taut::{SurfacePlace, TautPath, taut_path};

@@ -1,0 +1,514 @@
+//! The shortest path by intervals: a search node is a stretch of a side and the last bend, from which all of the
+//! stretch is seen. Nothing is discretised: the result is exact up to rounding, and rounding lets paths see past
+//! corners rather than hide behind them.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use super::Measure;
+use super::cells::{Across, Crossing, NONE, Surface};
+use crate::geometry::{Point, Vector};
+
+/// Cross products below this share of their factors count as 0, in favour of being seen.
+const ROUNDING: f64 = 1e-13;
+
+/// Costs that differ by less than this share are the same: paths to one vertex may differ in what they see beyond.
+const COST_ROUNDING: f64 = 1e-12;
+
+/// How near to a vertex a ray meets it, in roundings of the surface.
+const SNAP: f64 = 10.0;
+
+/// Search nodes between two questions whether to keep going.
+const NODES_PER_LOOK: usize = 4096;
+
+/// A place on a surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePlace {
+    /// A cell that holds it.
+    pub cell: usize,
+    /// Where it is in the cell's plane.
+    pub point: Point,
+}
+
+/// A shortest path.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TautPath {
+    /// What it costs.
+    pub cost: f64,
+    /// Where it begins, where it enters each cell or bends, and where it ends; between two of them it is straight
+    /// and stays in the cell of the first. A place on a seam has the cell entered.
+    pub places: Vec<SurfacePlace>,
+    /// For each place, how far planes were shifted since the start.
+    pub shifts: Vec<Vector>,
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    /// The cell entered, or the one that holds the goal.
+    cell: u32,
+    /// The side it is entered by; `NONE` at the start.
+    side: u32,
+    /// The stretch of that side, in the cell's plane.
+    left: Point,
+    right: Point,
+    left_vertex: u32,
+    right_vertex: u32,
+    /// The last bend, in the cell's plane, and its vertex.
+    root: Point,
+    root_vertex: u32,
+    cost: f64,
+    parent: u32,
+    /// At which end of the parent's stretch the path bent.
+    bent: Bent,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Bent {
+    No,
+    Left,
+    Right,
+}
+
+/// A node waiting, or the end of a path; the cheapest comes first, then the eldest.
+struct Waiting {
+    estimate: f64,
+    node: u32,
+    goal: Option<Goal>,
+}
+
+#[derive(Clone, Copy)]
+struct Goal {
+    point: Point,
+    bent: Bent,
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Waiting {}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.estimate.total_cmp(&self.estimate).then(other.node.cmp(&self.node))
+    }
+}
+
+/// The cheapest path from one of `starts` to one of `goals`, or `None` if walls part them all, or `keep_going`,
+/// asked every few thousand steps, said no.
+///
+/// `images` are points such that going from a place of any cell to a goal costs at least as much as going straight
+/// to the nearest of them in the cell's plane: the goals themselves in all shifts that count; none to search blindly.
+///
+/// # Reference
+/// Cui, Harabor and Grastien, *Compromise-free pathfinding on a navigation mesh*, IJCAI 2017 (Polyanya); here on
+/// surfaces that may wrap round and fold.
+pub fn taut_path(
+    surface: &Surface,
+    starts: &[SurfacePlace],
+    goals: &[SurfacePlace],
+    measure: Measure,
+    images: &[Point],
+    keep_going: &dyn Fn() -> bool,
+) -> Option<TautPath> {
+    let reached = surface.reached_from(starts.iter().map(|start| start.cell));
+    // Without a way the search would go round and round.
+    let goals: Vec<SurfacePlace> = goals.iter().copied().filter(|goal| reached[goal.cell]).collect();
+    if goals.is_empty() {
+        return None;
+    }
+    let mut search = Search {
+        surface,
+        measure,
+        images,
+        to_go: vec![f64::NAN; surface.len()],
+        goals_in: vec![Vec::new(); surface.len()],
+        nodes: Vec::new(),
+        waiting: BinaryHeap::new(),
+        costs: vec![f64::INFINITY; surface.sides.len()],
+        turned: vec![[f64::INFINITY; 2]; surface.sides.len()],
+    };
+    for goal in &goals {
+        search.goals_in[goal.cell].push(goal.point);
+    }
+    for start in starts {
+        search.start(start);
+    }
+    let mut looks = 0_usize;
+    while let Some(Waiting { node, goal, estimate }) = search.waiting.pop() {
+        if let Some(goal) = goal {
+            return Some(search.path(node, goal, estimate));
+        }
+        if looks.is_multiple_of(NODES_PER_LOOK) && !keep_going() {
+            return None;
+        }
+        looks += 1;
+        search.expand(node);
+    }
+    None
+}
+
+struct Search<'a> {
+    surface: &'a Surface,
+    measure: Measure,
+    images: &'a [Point],
+    /// Least cost from each cell to a goal; NaN until asked for.
+    to_go: Vec<f64>,
+    goals_in: Vec<Vec<Point>>,
+    nodes: Vec<Node>,
+    waiting: BinaryHeap<Waiting>,
+    /// Least known cost to bend at each vertex.
+    costs: Vec<f64>,
+    /// Least cost at which each side was crossed right beside a bend at its right and its left end: going round a vertex
+    /// ends there.
+    turned: Vec<[f64; 2]>,
+}
+
+/// What of a cell is seen from the last bend through a stretch of one side.
+enum View {
+    /// All of it: the bend lies on the stretch.
+    All,
+    /// What lies between two rays.
+    Between { right: Vector, left: Vector },
+    /// Nothing, for the bend lies on the side's line; the path comes from the right end, or the left.
+    EdgeOn(Bent),
+}
+
+impl Search<'_> {
+    fn start(&mut self, start: &SurfacePlace) {
+        let place = start.point;
+        self.nodes.push(Node {
+            cell: start.cell as u32,
+            side: NONE,
+            left: place,
+            right: place,
+            left_vertex: NONE,
+            right_vertex: NONE,
+            root: place,
+            root_vertex: NONE,
+            cost: 0.0,
+            parent: NONE,
+            bent: Bent::No,
+        });
+        let node = self.nodes.len() as u32 - 1;
+        let estimate = self.least_to_go(start.cell);
+        self.waiting.push(Waiting { estimate, node, goal: None });
+    }
+
+    /// Least cost from a place of `cell` to a goal.
+    fn least_to_go(&mut self, cell: usize) -> f64 {
+        if self.to_go[cell].is_nan() {
+            let sides = self.surface.sides(cell);
+            let (mut low, mut high) = (sides[0].from, sides[0].from);
+            for side in sides {
+                low = Point::new(low.x.min(side.from.x), low.y.min(side.from.y));
+                high = Point::new(high.x.max(side.from.x), high.y.max(side.from.y));
+            }
+            let nearest = self.images.iter().map(|image| self.measure.between_box_and(low, high, *image));
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            self.to_go[cell] = if nearest.is_finite() { nearest } else { 0.0 };
+        }
+        self.to_go[cell]
+    }
+
+    fn expand(&mut self, index: u32) {
+        let node = self.nodes[index as usize];
+        if node.root_vertex != NONE && node.cost > with_rounding(self.costs[node.root_vertex as usize]) {
+            return;
+        }
+        let view = if node.side == NONE { View::All } else { view(&node) };
+        self.look_for_goals(index, &node, &view);
+
+        let (cell, begin) = (node.cell as usize, self.surface.begins[node.cell as usize] as usize);
+        let count = self.surface.begins[cell + 1] as usize - begin;
+        let skip = if node.side == NONE { 0 } else { 1 };
+        let first = if node.side == NONE { 0 } else { node.side as usize - begin };
+        for i in skip..count {
+            let side = begin + (first + i) % count;
+            let Some(across) = self.surface.sides[side].across else { continue };
+            let (p, q) =
+                (self.surface.sides[side].from, self.surface.sides[self.surface.next(cell, side)].from);
+            let (seen_from, seen_to) = match &view {
+                View::All => (0.0, 1.0),
+                View::EdgeOn(Bent::Right) => (1.0, 1.0),
+                View::EdgeOn(_) => (0.0, 0.0),
+                View::Between { right, left } => {
+                    let (from, to) = seen(&node.root, right, left, p, q);
+                    // A ray that all but meets a vertex meets it: there paths may bend.
+                    let near = SNAP * self.surface.rounding / (q - p).length_squared().sqrt();
+                    (snapped(from, near), snapped(to, near))
+                }
+            };
+            let stretch = |from: f64, to: f64| Stretch { side, p, q, from, to, across };
+            if seen_from > 0.0 {
+                self.bend(index, &node, Bent::Right, &stretch(0.0, seen_from));
+            }
+            if seen_to > seen_from {
+                let seen = stretch(seen_from, seen_to);
+                self.push(index, &node, &seen, (node.root, node.root_vertex, node.cost), Bent::No);
+            }
+            if seen_to < 1.0 {
+                self.bend(index, &node, Bent::Left, &stretch(seen_to, 1.0));
+            }
+        }
+    }
+
+    fn look_for_goals(&mut self, index: u32, node: &Node, view: &View) {
+        for i in 0..self.goals_in[node.cell as usize].len() {
+            let goal = self.goals_in[node.cell as usize][i];
+            let bent = match view {
+                View::All => Bent::No,
+                View::EdgeOn(bent) => *bent,
+                View::Between { right, left } => {
+                    let ray = goal - node.root;
+                    if below(right.cross(ray), right, &ray) {
+                        Bent::Right
+                    } else if below(-left.cross(ray), left, &ray) {
+                        Bent::Left
+                    } else {
+                        Bent::No
+                    }
+                }
+            };
+            let cost = match self.bend_at(node, bent) {
+                None if bent == Bent::No => node.cost + self.measure.of(goal - node.root),
+                None => continue,
+                Some((point, _, cost)) => cost + self.measure.of(goal - point),
+            };
+            self.waiting.push(Waiting {
+                estimate: cost,
+                node: index,
+                goal: Some(Goal { point: goal, bent }),
+            });
+        }
+    }
+
+    /// Where a path that bends at an end of the node's stretch does so, at which vertex and at what cost; `None`
+    /// where it cannot.
+    fn bend_at(&self, node: &Node, bent: Bent) -> Option<(Point, u32, f64)> {
+        let (point, vertex) = match bent {
+            Bent::No => return None,
+            Bent::Left => (node.left, node.left_vertex),
+            Bent::Right => (node.right, node.right_vertex),
+        };
+        let can = vertex != NONE && self.surface.bends[vertex as usize];
+        can.then(|| (point, vertex, node.cost + self.measure.of(point - node.root)))
+    }
+
+    fn bend(&mut self, index: u32, node: &Node, bent: Bent, stretch: &Stretch) {
+        let Some((point, vertex, cost)) = self.bend_at(node, bent) else { return };
+        let known = &mut self.costs[vertex as usize];
+        if cost <= with_rounding(*known) {
+            *known = known.min(cost);
+            self.push(index, node, stretch, (point, vertex, cost), bent);
+        }
+    }
+
+    /// A node beyond a stretch of a side of the node's cell.
+    fn push(
+        &mut self,
+        parent: u32,
+        node: &Node,
+        stretch: &Stretch,
+        (root, root_vertex, cost): (Point, u32, f64),
+        bent: Bent,
+    ) {
+        let Stretch { side, p, q, from, to, across } = *stretch;
+        let cell = node.cell as usize;
+        let (right, right_vertex) = stretch.end(from, self.surface.vertices[side], NONE);
+        let (left, left_vertex) = stretch.end(to, NONE, self.surface.vertices[self.surface.next(cell, side)]);
+        if (left - right).length_squared() == 0.0 {
+            return;
+        }
+        if root == left || root == right {
+            let turned = &mut self.turned[side][usize::from(root == left)];
+            if with_rounding(cost) >= *turned {
+                return;
+            }
+            *turned = cost;
+        }
+        let mut next = Node {
+            cell: across.cell as u32,
+            side: self.surface.begins[across.cell] + across.side as u32,
+            left,
+            right,
+            left_vertex,
+            right_vertex,
+            root,
+            root_vertex,
+            cost,
+            parent,
+            bent,
+        };
+        match across.crossing {
+            Crossing::Shift(shift) => {
+                next.left = left + shift;
+                next.right = right + shift;
+                next.root = root + shift;
+            }
+            Crossing::Fold => {
+                next.root = mirrored(root, p, q);
+                std::mem::swap(&mut next.left, &mut next.right);
+                std::mem::swap(&mut next.left_vertex, &mut next.right_vertex);
+            }
+        }
+        let to_side = self.measure.to_line(next.root, next.left, next.right);
+        let estimate = cost + to_side + self.least_to_go(across.cell);
+        self.nodes.push(next);
+        self.waiting.push(Waiting { estimate, node: self.nodes.len() as u32 - 1, goal: None });
+    }
+
+    /// The path to `goal` in the cell of `node`, followed back.
+    fn path(&self, node: u32, goal: Goal, cost: f64) -> TautPath {
+        let mut places = vec![(goal.point, self.nodes[node as usize].cell, Vector::default())];
+        let mut target = goal.point;
+        let mut bent = goal.bent;
+        let mut at = node;
+        loop {
+            let node = self.nodes[at as usize];
+            if bent != Bent::No {
+                target = if bent == Bent::Left { node.left } else { node.right };
+                places.push((target, node.cell, Vector::default()));
+            }
+            if node.side == NONE {
+                places.push((node.root, node.cell, Vector::default()));
+                break;
+            }
+            let enters = crossing_of(node.root, target, node.left, node.right);
+            let side = &self.surface.sides[node.side as usize];
+            // The side knows the way back, out of the cell entered.
+            let (shift, back) = match side.across.map(|across| across.crossing) {
+                Some(Crossing::Shift(shift)) => (-shift, target + shift),
+                _ => {
+                    let next = self.surface.next(node.cell as usize, node.side as usize);
+                    (Vector::default(), mirrored(target, side.from, self.surface.sides[next].from))
+                }
+            };
+            places.push((enters, node.cell, shift));
+            target = back;
+            bent = node.bent;
+            at = node.parent;
+        }
+        places.reverse();
+        let mut shifted = Vector::default();
+        let shifts = places.iter().map(|(_, _, shift)| {
+            shifted = shifted + *shift;
+            shifted
+        });
+        TautPath {
+            cost,
+            shifts: shifts.collect(),
+            places: places
+                .iter()
+                .map(|&(point, cell, _)| SurfacePlace { cell: cell as usize, point })
+                .collect(),
+        }
+    }
+}
+
+/// A stretch of a side from `p` to `q`, as shares of it.
+struct Stretch {
+    side: usize,
+    p: Point,
+    q: Point,
+    from: f64,
+    to: f64,
+    across: Across,
+}
+
+impl Stretch {
+    /// The place at `share`, and its vertex: `at_p` at 0, `at_q` at 1.
+    fn end(&self, share: f64, at_p: u32, at_q: u32) -> (Point, u32) {
+        if share <= 0.0 {
+            (self.p, at_p)
+        } else if share >= 1.0 {
+            (self.q, at_q)
+        } else {
+            (self.p.lerp(self.q, share), NONE)
+        }
+    }
+}
+
+fn view(node: &Node) -> View {
+    let side = node.right - node.left;
+    let off = side.cross(node.root - node.left);
+    if below(off, &side, &(node.root - node.left)) {
+        return View::Between { right: node.right - node.root, left: node.left - node.root };
+    }
+    let along = side.dot(node.root - node.left);
+    if along < 0.0 {
+        View::EdgeOn(Bent::Left)
+    } else if along > side.length_squared() {
+        View::EdgeOn(Bent::Right)
+    } else {
+        View::All
+    }
+}
+
+/// From and to which share the line from `p` to `q`, counter-clockwise as seen from `root`, lies between two rays.
+fn seen(root: &Point, right: &Vector, left: &Vector, p: Point, q: Point) -> (f64, f64) {
+    let (to_p, to_q) = (p - *root, q - *root);
+    let after_right = [right.cross(to_p), right.cross(to_q)];
+    let before_left = [-left.cross(to_p), -left.cross(to_q)];
+    let share = |[at_p, at_q]: [f64; 2]| (at_p / (at_p - at_q)).clamp(0.0, 1.0);
+    // Once round the cell, what is hidden to the right comes first and what is hidden to the left last.
+    let from = match (below(after_right[0], right, &to_p), below(after_right[1], right, &to_q)) {
+        (_, true) => 1.0,
+        (true, false) => share(after_right),
+        (false, false) => 0.0,
+    };
+    let to = match (below(before_left[0], left, &to_p), below(before_left[1], left, &to_q)) {
+        (true, _) => 0.0,
+        (false, true) => share(before_left),
+        (false, false) => 1.0,
+    };
+    (from, to.max(from))
+}
+
+/// The most that `cost` may come to when it is summed up on another way.
+fn with_rounding(cost: f64) -> f64 {
+    cost * (1.0 + COST_ROUNDING)
+}
+
+/// `share`, at an end of its line if it is that near.
+fn snapped(share: f64, near: f64) -> f64 {
+    if share < near {
+        0.0
+    } else if share > 1.0 - near {
+        1.0
+    } else {
+        share
+    }
+}
+
+/// Whether the cross product of `a` and `b` is below 0 by more than rounding.
+fn below(cross: f64, a: &Vector, b: &Vector) -> bool {
+    cross < 0.0 && cross * cross > ROUNDING * ROUNDING * a.length_squared() * b.length_squared()
+}
+
+/// Where the line from `from` to `to` crosses that from `a` to `b`, which it does but for rounding.
+fn crossing_of(from: Point, to: Point, a: Point, b: Point) -> Point {
+    let (way, side) = (to - from, b - a);
+    let across = side.cross(way);
+    let share = if across == 0.0 {
+        // Along the side: as soon as it is reached.
+        side.dot(from - a) / side.length_squared()
+    } else {
+        way.cross(a - from) / across
+    };
+    a.lerp(b, share.clamp(0.0, 1.0))
+}
+
+fn mirrored(point: Point, a: Point, b: Point) -> Point {
+    let along = b - a;
+    let off = along.cross(point - a) / along.length_squared();
+    point + Vector::new(along.y, -along.x) * (2.0 * off)
+}

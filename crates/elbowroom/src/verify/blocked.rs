@@ -1,0 +1,101 @@
+//! Whether the arm cannot be anywhere along a line: the opposite of a sweep.
+
+use super::clearance::{Axis, Body};
+use crate::arm::Configuration;
+use crate::scene::Scene;
+
+/// Halvings after which a stretch of a line is given up.
+const DEEPEST: u32 = 24;
+
+/// The obstacles and what is needed to look at them along many lines.
+pub(super) struct Blocked<'a> {
+    base: [f64; 2],
+    lengths: [f64; 2],
+    half_width: f64,
+    /// Clearance (m) up to which a configuration counts as blocked.
+    margin: f64,
+    bodies: Vec<(Body<'a>, f64)>,
+}
+
+/// What blocked the last configuration: it likely blocks the next.
+type Witness = Option<(usize, usize)>;
+
+impl<'a> Blocked<'a> {
+    pub(super) fn new(scene: &'a Scene, margin: f64) -> Self {
+        let arm = &scene.arm;
+        let (base, [l1, l2]) = (arm.base(), arm.lengths());
+        let reach = base.x.abs() + base.y.abs() + l1 + l2 + arm.half_width();
+        let bodies = scene.obstacles.iter().map(|obstacle| {
+            let body = Body::new(&obstacle.shape);
+            let rounding = body.rounding(reach);
+            (body, rounding)
+        });
+        Self {
+            base: [base.x, base.y],
+            lengths: [l1, l2],
+            half_width: arm.half_width(),
+            margin,
+            bodies: bodies.collect(),
+        }
+    }
+
+    /// Whether at every place of the straight turn from `from` to `to` a link touches an obstacle: proved, not
+    /// sampled. A link that is `d` deep at a place still touches where none of its points moved by more than `d`.
+    pub(super) fn all_along(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+        let mut witness = None;
+        self.between(from, to, &mut witness, 0)
+    }
+
+    fn between(
+        &self,
+        from: &Configuration<2>,
+        to: &Configuration<2>,
+        witness: &mut Witness,
+        depth: u32,
+    ) -> bool {
+        let middle = from.lerp(to, 0.5);
+        let turn = [0.5 * (to.0[0] - from.0[0]), 0.5 * (to.0[1] - from.0[1])];
+        let first = self.lengths[0] * turn[0].abs();
+        let bounds = [first, first + self.lengths[1] * (turn[0] + turn[1]).abs()];
+        let axes = self.axes(&middle);
+        let known = witness.map(|(link, body)| self.depth(&axes, link, body) - bounds[link]);
+        if known.is_some_and(|spare| spare > 0.0) {
+            return true;
+        }
+        let mut best = (f64::NEG_INFINITY, None);
+        let mut deepest = f64::NEG_INFINITY;
+        for (link, bound) in bounds.into_iter().enumerate() {
+            for body in 0..self.bodies.len() {
+                let depth = self.depth(&axes, link, body);
+                deepest = deepest.max(depth);
+                if depth - bound > best.0 {
+                    best = (depth - bound, Some((link, body)));
+                }
+            }
+        }
+        *witness = best.1;
+        if best.0 > 0.0 {
+            return true;
+        }
+        deepest > 0.0
+            && depth < DEEPEST
+            && self.between(from, &middle, witness, depth + 1)
+            && self.between(&middle, to, witness, depth + 1)
+    }
+
+    fn axes(&self, q: &Configuration<2>) -> [Axis; 2] {
+        let ((s1, c1), (s2, c2)) = (libm::sincos(q.0[0]), libm::sincos(q.0[0] + q.0[1]));
+        let [l1, l2] = self.lengths;
+        let elbow = [self.base[0] + l1 * c1, self.base[1] + l1 * s1];
+        [
+            Axis { start: self.base, along: [c1, s1], length: l1 },
+            Axis { start: elbow, along: [c2, s2], length: l2 },
+        ]
+    }
+
+    /// How far every point of a link may move (m) with the link still touching; 0 or less where it does not touch.
+    fn depth(&self, axes: &[Axis; 2], link: usize, body: usize) -> f64 {
+        let (body, rounding) = &self.bodies[body];
+        body.depth(&axes[link]) + self.half_width + self.margin - rounding
+    }
+}

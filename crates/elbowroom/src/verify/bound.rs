@@ -1,0 +1,173 @@
+use std::f64::consts::{PI, TAU};
+
+use thiserror::Error;
+
+use super::blocked::Blocked;
+use crate::arm::{Configuration, JointLimits};
+use crate::geometry::Point;
+use crate::scene::Scene;
+use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
+
+/// Rounding that an angle may have gone through on its way to a place (rad).
+const ANGLE_ROUNDING: f64 = 1e-9;
+
+/// Share of a bound that is given away for the rounding of sums.
+const SUM_ROUNDING: f64 = 1e-9;
+
+/// The claim that a surface over both joints, x the first and y the second (rad), leaves open all that is free and
+/// can be reached.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenJoints<'a> {
+    /// The cells and their walls.
+    pub surface: &'a Surface,
+    /// Where each start is.
+    pub starts: &'a [(Configuration<2>, SurfacePlace)],
+    /// Where each goal is.
+    pub goals: &'a [(Configuration<2>, SurfacePlace)],
+    /// Whether the posture must not change: walls may stand at full stretch and fold.
+    pub keeps_posture: bool,
+    /// Clearance that is asked for (m): what comes nearer counts as blocked.
+    pub margin: f64,
+}
+
+/// What is known of every motion from a start to a goal.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reachability {
+    /// None exists: walls part all starts from all goals.
+    Parted,
+    /// None costs less than this.
+    AtLeast {
+        /// In terms of the measure.
+        cost: f64,
+        /// The cheapest path over what the claim leaves open, which may not be free.
+        path: TautPath,
+    },
+}
+
+/// Why a claim proves nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum BoundError {
+    /// A wall stands where the arm may be able to pass.
+    #[error("the wall from {from:?} to {to:?} rad is not proved to be blocked")]
+    Wall {
+        /// Where it begins (rad).
+        from: [f64; 2],
+        /// Where it ends (rad).
+        to: [f64; 2],
+    },
+    /// A start or goal is not where it is said to be.
+    #[error("{q:?} rad is not at the place it is given")]
+    Place {
+        /// The configuration (rad).
+        q: [f64; 2],
+    },
+    /// `keep_going` said no.
+    #[error("stopped before the bound was proved")]
+    Stopped,
+}
+
+/// A lower bound of the cost of every motion from any of the starts to any of the goals, or the proof that there is
+/// none: every wall that can be reached is shown to be blocked, and the shortest way among them is exact.
+///
+/// The walls may come from anywhere; a motion that is clear by more than the margin passes none of them, so that it
+/// is a path on the surface.
+///
+/// # Errors
+/// [`BoundError`]
+pub fn bound_over_joints(
+    scene: &Scene,
+    claim: &OpenJoints<'_>,
+    measure: Measure,
+    keep_going: &dyn Fn() -> bool,
+) -> Result<Reachability, BoundError> {
+    for (q, place) in claim.starts.iter().chain(claim.goals) {
+        if !stands_at(scene, q, place, claim.surface) {
+            return Err(BoundError::Place { q: q.0 });
+        }
+    }
+    let surface = claim.surface;
+    let reached = surface.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
+    let blocked = Blocked::new(scene, claim.margin);
+    for cell in (0..surface.len()).filter(|&cell| reached[cell]) {
+        if !keep_going() {
+            return Err(BoundError::Stopped);
+        }
+        let sides = surface.sides(cell);
+        for (i, side) in sides.iter().enumerate().filter(|(_, side)| side.across.is_none()) {
+            let (from, to) = (side.from, sides[(i + 1) % sides.len()].from);
+            let ends = [from, to].map(|p| Configuration([p.x, p.y]));
+            let stands = at_stop(scene, from, to)
+                || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)
+                || blocked.all_along(&ends[0], &ends[1]);
+            if !stands {
+                return Err(BoundError::Wall { from: ends[0].0, to: ends[1].0 });
+            }
+        }
+    }
+    let places =
+        |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
+    let (starts, goals) = (places(claim.starts), places(claim.goals));
+    if goals.iter().all(|goal| !reached[goal.cell]) {
+        return Ok(Reachability::Parted);
+    }
+    let images = images(scene, surface, &goals);
+    let path =
+        taut_path(surface, &starts, &goals, measure, &images, keep_going).ok_or(BoundError::Stopped)?;
+    Ok(Reachability::AtLeast { cost: path.cost * (1.0 - SUM_ROUNDING), path })
+}
+
+/// Whether `place` holds `q`, whole turns of continuous joints aside.
+fn stands_at(scene: &Scene, q: &Configuration<2>, place: &SurfacePlace, surface: &Surface) -> bool {
+    let at = [place.point.x, place.point.y];
+    let same = (0..2).all(|j| {
+        let apart = at[j] - q.0[j];
+        let turns = match scene.arm.joints()[j].limits {
+            JointLimits::Continuous => TAU * (apart / TAU).round(),
+            JointLimits::Range { .. } => 0.0,
+        };
+        (apart - turns).abs() <= ANGLE_ROUNDING
+    });
+    same && place.cell < surface.len() && surface.holds(place.cell, place.point)
+}
+
+/// Whether the line from `from` to `to` lies at or beyond a stop of a joint.
+fn at_stop(scene: &Scene, from: Point, to: Point) -> bool {
+    let beyond = |limits: &JointLimits, a: f64, b: f64| match *limits {
+        JointLimits::Continuous => false,
+        JointLimits::Range { min, max } => (a <= min && b <= min) || (a >= max && b >= max),
+    };
+    let [first, second] = scene.arm.joints();
+    beyond(&first.limits, from.x, to.x) || beyond(&second.limits, from.y, to.y)
+}
+
+fn is_in_line(point: Point) -> bool {
+    (point.y - PI * (point.y / PI).round()).abs() <= 1e-12
+}
+
+/// The goals in every turn of continuous joints that can be next to a cell.
+pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[SurfacePlace]) -> Vec<Point> {
+    let mut low = [f64::INFINITY; 2];
+    let mut high = [f64::NEG_INFINITY; 2];
+    for side in (0..surface.len()).flat_map(|cell| surface.sides(cell)) {
+        for (j, v) in [side.from.x, side.from.y].into_iter().enumerate() {
+            low[j] = low[j].min(v);
+            high[j] = high[j].max(v);
+        }
+    }
+    let turns = |j: usize, at: f64| match scene.arm.joints()[j].limits {
+        JointLimits::Continuous => {
+            let (first, last) = ((low[j] - PI - at) / TAU, (high[j] + PI - at) / TAU);
+            first.floor() as i64..=last.ceil() as i64
+        }
+        JointLimits::Range { .. } => 0..=0,
+    };
+    let mut images = Vec::new();
+    for goal in goals {
+        for i in turns(0, goal.point.x) {
+            for j in turns(1, goal.point.y) {
+                images.push(Point::new(goal.point.x + TAU * i as f64, goal.point.y + TAU * j as f64));
+            }
+        }
+    }
+    images
+}

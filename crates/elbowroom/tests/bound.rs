@@ -1,0 +1,307 @@
+//! Lower bounds and proofs of "no path" against brute force: a fine grid of joint angles whose steps are certified.
+//! A path over the grid is a motion, so that no bound may be above it, and none may exist where one is denied.
+
+#![expect(clippy::print_stdout, reason = "a campaign reports its figures")]
+
+#[path = "judge/distance.rs"]
+mod distance;
+#[expect(dead_code, reason = "shared between tests")]
+mod judge;
+mod worlds;
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::f64::consts::{PI, TAU};
+
+use elbowroom::arm::{Configuration, JointLimits, Posture};
+use elbowroom::free_space::configurations;
+use elbowroom::path::sweep_keeps;
+use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::scene::{Scene, Task, TaskPosture};
+
+/// What brute force finds.
+struct Judged {
+    /// The shortest certified way over the grid in joint travel (rad), tip travel (m) and time at greatest speed
+    /// (s), if there is one.
+    least: Option<[f64; 3]>,
+    /// Whether start and goal are parted even where every place that is not deep in an obstacle counts as free.
+    parted: bool,
+}
+
+struct Lattice {
+    low: [f64; 2],
+    step: [f64; 2],
+    count: [usize; 2],
+    round: [bool; 2],
+    keep: Option<Posture>,
+}
+
+impl Lattice {
+    fn new(scene: &Scene, points: usize, keep: Option<Posture>) -> Self {
+        let joints = scene.arm.joints().map(|joint| joint.limits);
+        let of = |limits: JointLimits| match limits {
+            JointLimits::Continuous => (-PI, TAU / points as f64, points, true),
+            JointLimits::Range { min, max } => {
+                let count = ((max - min) / TAU * points as f64).ceil().max(1.0) as usize;
+                (min, (max - min) / count as f64, count + 1, false)
+            }
+        };
+        let (a, b) = (of(joints[0]), of(joints[1]));
+        Self { low: [a.0, b.0], step: [a.1, b.1], count: [a.2, b.2], round: [a.3, b.3], keep }
+    }
+
+    fn q(&self, node: usize) -> Configuration<2> {
+        let at = [node / self.count[1], node % self.count[1]];
+        Configuration(std::array::from_fn(|j| self.low[j] + self.step[j] * at[j] as f64))
+    }
+
+    /// The place `by` steps away, and the plain way there.
+    fn next(&self, node: usize, by: [i64; 2]) -> Option<(usize, Configuration<2>)> {
+        let at = [(node / self.count[1]) as i64, (node % self.count[1]) as i64];
+        let mut to = [0; 2];
+        for j in 0..2 {
+            let n = self.count[j] as i64;
+            let there = at[j] + by[j];
+            to[j] = if self.round[j] { there.rem_euclid(n) } else { there };
+            if !(0..n).contains(&to[j]) {
+                return None;
+            }
+        }
+        let q = self.q(node);
+        let way = Configuration(std::array::from_fn(|j| q.0[j] + self.step[j] * by[j] as f64));
+        Some((to[0] as usize * self.count[1] + to[1] as usize, way))
+    }
+
+    fn nodes(&self) -> usize {
+        self.count[0] * self.count[1]
+    }
+
+    /// The nodes around `q`, with the way from `q` to each.
+    fn around(&self, q: &Configuration<2>) -> Vec<(usize, Configuration<2>)> {
+        let mut found = Vec::new();
+        for node in 0..self.nodes() {
+            let mut at = self.q(node);
+            let near = (0..2).all(|j| {
+                if self.round[j] {
+                    at.0[j] += TAU * ((q.0[j] - at.0[j]) / TAU).round();
+                }
+                (at.0[j] - q.0[j]).abs() <= self.step[j] * (1.0 + 1e-9)
+            });
+            if near {
+                found.push((node, at));
+            }
+        }
+        found
+    }
+
+    fn in_posture(&self, q: &Configuration<2>) -> bool {
+        self.keep.is_none_or(|keep| Posture::of(q).is_none_or(|posture| posture == keep))
+    }
+}
+
+/// What each step costs: joint travel, tip travel, time at the greatest speeds.
+fn costs(scene: &Scene, from: &Configuration<2>, to: &Configuration<2>, speeds: [f64; 2]) -> [f64; 3] {
+    let tips = |i: usize| scene.arm.tip(&from.lerp(to, i as f64 / 8.0));
+    let tip: f64 = (0..8).map(|i| tips(i).distance(tips(i + 1))).sum();
+    let turn = [0, 1].map(|j| (to.0[j] - from.0[j]).abs());
+    [turn[0].hypot(turn[1]), tip, (turn[0] / speeds[0]).max(turn[1] / speeds[1])]
+}
+
+fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option<Judged> {
+    let starts = configurations(scene, &task.start).ok()?;
+    let mut goals = configurations(scene, &task.goal).ok()?;
+    let wanted = match task.posture {
+        TaskPosture::Up => Some(Posture::ElbowUp),
+        TaskPosture::Down => Some(Posture::ElbowDown),
+        _ => None,
+    };
+    goals.retain(|q| wanted.is_none_or(|wanted| Posture::of(q).is_none_or(|posture| posture == wanted)));
+    if goals.is_empty() {
+        return None;
+    }
+    let mut judged = Judged { least: None, parted: true };
+    let keeps: Vec<Option<Posture>> = match task.posture {
+        TaskPosture::Keep => Posture::ALL.map(Some).to_vec(),
+        _ => vec![None],
+    };
+    for keep in keeps {
+        let lattice = Lattice::new(scene, points, keep);
+        let clear: Vec<f64> = (0..lattice.nodes())
+            .map(|node| {
+                let q = lattice.q(node);
+                if lattice.in_posture(&q) { judge::clearance(scene, q.0) } else { f64::NEG_INFINITY }
+            })
+            .collect();
+        let own = |ends: &[Configuration<2>]| {
+            ends.iter().filter(|q| lattice.in_posture(q)).copied().collect::<Vec<_>>()
+        };
+        let (starts, goals) = (own(&starts), own(&goals));
+        for objective in 0..3 {
+            let mut least = vec![f64::INFINITY; lattice.nodes()];
+            let mut queue = BinaryHeap::new();
+            let key = |cost: f64| Reverse(cost.to_bits());
+            for start in &starts {
+                for (node, way) in lattice.around(start) {
+                    let cost = costs(scene, start, &way, speeds)[objective];
+                    if clear[node] > 0.0 && cost < least[node] && sweep_keeps(scene, start, &way, 0.0) {
+                        least[node] = cost;
+                        queue.push((key(cost), node));
+                    }
+                }
+            }
+            while let Some((Reverse(bits), node)) = queue.pop() {
+                let cost = f64::from_bits(bits);
+                if cost > least[node] {
+                    continue;
+                }
+                let from = lattice.q(node);
+                for by in [
+                    [0, 1],
+                    [1, 0],
+                    [0, -1],
+                    [-1, 0],
+                    [1, 1],
+                    [1, -1],
+                    [-1, 1],
+                    [-1, -1],
+                    [1, 2],
+                    [2, 1],
+                    [-1, 2],
+                    [-2, 1],
+                    [1, -2],
+                    [2, -1],
+                    [-1, -2],
+                    [-2, -1],
+                ] {
+                    let Some((to, way)) = lattice.next(node, by) else { continue };
+                    let cost = cost + costs(scene, &from, &way, speeds)[objective];
+                    if clear[to] > 0.0 && cost < least[to] && sweep_keeps(scene, &from, &way, 0.0) {
+                        least[to] = cost;
+                        queue.push((key(cost), to));
+                    }
+                }
+            }
+            for goal in &goals {
+                for (node, way) in lattice.around(goal) {
+                    let cost = least[node] + costs(scene, goal, &way, speeds)[objective];
+                    if cost.is_finite() && sweep_keeps(scene, goal, &way, 0.0) {
+                        let best = judged.least.get_or_insert([f64::INFINITY; 3]);
+                        best[objective] = best[objective].min(cost);
+                    }
+                }
+            }
+        }
+        // No place of a square is farther from its corners than half a step each way.
+        let [l1, l2] = scene.arm.lengths();
+        let half = 0.5 * lattice.step[0];
+        let moved = half * (l1 + l2) + 0.5 * lattice.step[1] * l2;
+        let open = |node: usize| clear[node] > -moved;
+        let mut reached = vec![false; lattice.nodes()];
+        let mut waiting: Vec<usize> =
+            starts.iter().flat_map(|q| lattice.around(q)).map(|(node, _)| node).collect();
+        while let Some(node) = waiting.pop() {
+            if std::mem::replace(&mut reached[node], true) {
+                continue;
+            }
+            for by in [[0, 1], [1, 0], [0, -1], [-1, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]] {
+                waiting.extend(lattice.next(node, by).map(|(to, _)| to).filter(|&to| open(to)));
+            }
+        }
+        judged.parted &= !goals.iter().flat_map(|q| lattice.around(q)).any(|(node, _)| reached[node]);
+    }
+    Some(judged)
+}
+
+/// Walls that part many a task: bars across the reach, and around its ends.
+fn wall_in(scene: &mut Scene, seed: u64) {
+    let mut numbers = worlds::Numbers::seeded(seed ^ 0x5A5A);
+    let reach: f64 = scene.arm.lengths().iter().sum();
+    for _ in 0..1 + numbers.below(3) {
+        let angle = numbers.within(-PI, PI);
+        let (from, to) = (reach * numbers.within(0.1, 0.5), reach * numbers.within(0.7, 1.1));
+        let at = |r: f64, angle: f64| [r * angle.cos(), r * angle.sin()];
+        let added = worlds::bar(at(from, angle), at(to, angle + numbers.within(-0.3, 0.3)), 0.01);
+        let Some(added) = added else { continue };
+        scene.obstacles.push(added);
+        // A wall on the start or the goal would only be refused.
+        if scene
+            .tasks
+            .iter()
+            .any(|task| [&task.start, &task.goal].iter().any(|place| configurations(scene, place).is_err()))
+        {
+            scene.obstacles.pop();
+        }
+    }
+}
+
+/// How many worlds said what.
+#[derive(Debug, Default)]
+struct Count {
+    bounds: usize,
+    denied: usize,
+    parted: usize,
+    without_bound: usize,
+    undecided: usize,
+}
+
+fn campaign(seeds: std::ops::Range<u64>, points: usize) -> Count {
+    let mut count = Count::default();
+    for seed in seeds {
+        let Some(mut scene) = worlds::world(seed) else { continue };
+        if seed % 2 == 0 {
+            wall_in(&mut scene, seed);
+        }
+        let task = scene.tasks[0].clone();
+        // The assumed speeds where none is stated: half pi.
+        let speeds = scene.arm.joints().map(|joint| joint.motion.velocity.unwrap_or(PI / 2.0));
+        let Some(judged) = judged(&scene, &task, points, speeds) else { continue };
+        for (k, objective) in [Objective::Joint, Objective::Tip, Objective::Time].into_iter().enumerate() {
+            let settings = PlanSettings { planner: Planner::Optimal, objective, ..PlanSettings::default() };
+            match plan(&scene, &task, &settings, &Unwatched) {
+                Ok(plan) => {
+                    assert!(!judged.parted, "seed {seed}: a motion where the flood finds none");
+                    let Some(bound) = plan.lower_bound else {
+                        count.without_bound += 1;
+                        continue;
+                    };
+                    assert!(
+                        bound <= plan.cost * (1.0 + 1e-12),
+                        "seed {seed} {objective:?}: {bound} above the plan's own {}",
+                        plan.cost
+                    );
+                    if let Some(least) = judged.least {
+                        // Time of the way alone does not hold the time to speed up.
+                        let most = if objective == Objective::Time { plan.cost } else { least[k] };
+                        assert!(
+                            bound <= most * (1.0 + 1e-9),
+                            "seed {seed} {objective:?}: bound {bound} above {most}"
+                        );
+                        count.bounds += 1;
+                    }
+                }
+                Err(PlanError::NoPath(_)) => {
+                    assert!(judged.least.is_none(), "seed {seed}: denied what the grid has");
+                    count.denied += 1;
+                    count.parted += usize::from(judged.parted);
+                }
+                Err(PlanError::NotFoundOverJoints { .. }) => count.undecided += 1,
+                Err(PlanError::Start(_) | PlanError::Goal(_)) => {}
+                Err(other) => panic!("seed {seed}: {other}"),
+            }
+        }
+    }
+    count
+}
+
+#[test]
+fn no_bound_is_above_what_brute_force_finds_and_nothing_is_denied_that_it_finds() {
+    let count = campaign(0..100, 60);
+    assert!(count.bounds > 100 && count.denied > 10, "{count:?}");
+}
+
+#[test]
+#[ignore = "a quarter of an hour: make campaign"]
+fn ten_thousand_worlds() {
+    let seeds: u64 = std::env::var("WORLDS").map_or(10_000, |text| text.parse().unwrap());
+    println!("{:?}", campaign(0..seeds, 90));
+}
