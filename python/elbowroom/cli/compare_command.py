@@ -45,7 +45,7 @@ def compare_command(
         from elbowroom.planners import OWN, all_chosen
 
         choices = all_chosen(",".join(OWN) if planners is None else planners)
-        with _progress() as (count, say):
+        with _goes_on(out), _progress() as (count, say):
             done = compare(
                 scenes,
                 planners=choices,
@@ -89,9 +89,22 @@ def compare_command(
 
 def _command(scenes: list[Path], options: dict[str, Any]) -> str:
     """What to type for the same rows."""
-    words = ["elbowroom", "compare", *map(str, scenes)]
-    words += [word for name, value in options.items() if value is not None for word in (name, str(value))]
-    return shlex.join(words)
+    files = [shlex.quote(str(path)) for path in scenes]
+    folder = scenes[0].parent
+    if len(scenes) > 1 and set(scenes) == set(folder.glob("*.yaml")):
+        files = [f"{shlex.quote(str(folder))}/*.yaml"]
+    words = [word for name, value in options.items() if value is not None for word in (name, str(value))]
+    return " ".join(["elbowroom", "compare", *files, shlex.join(words)])
+
+
+@contextmanager
+def _goes_on(out: Path) -> Iterator[None]:
+    """Say on Ctrl-C that nothing is lost."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        print(f"the rows so far are in {out}; the same command goes on from there", file=sys.stderr)
+        raise
 
 
 @contextmanager

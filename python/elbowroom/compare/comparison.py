@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from elbowroom.compare.local import cores, run_locally
-from elbowroom.compare.on_ray import run_on_ray
+from elbowroom.compare.on_ray import ray_is_there, run_on_ray
 from elbowroom.compare.row import Problem, Row
 from elbowroom.compare.table import Table, in_order, parquet_is_there, write_parquet
 from elbowroom.compare.worker import Batch
@@ -135,6 +135,8 @@ def _check(
         refuse(f"no objective is called '{objective}'; tip, joint or time", "objective")
     if on not in get_args(Place):
         refuse(f"nothing to run on is called '{on}'; local or ray", "on")
+    if on == "ray" and not ray_is_there():
+        refuse("--on ray needs the extra: pip install 'elbowroom[ray]'", "on")
     for name, number in (("budget", budget), ("jobs", jobs)):
         if number is not None and not 1 <= number < 2**63:
             refuse(f"{name} is {number}, it must be a whole number from 1 on", name)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 from collections import deque
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -86,7 +87,7 @@ class _Worker:
     def __init__(self, batch: Batch) -> None:
         self.pipe, other_end = SPAWN.Pipe()
         self._process = SPAWN.Process(target=serve, args=(other_end,))
-        with _in_environment(ONE_THREAD):
+        with _in_environment(ONE_THREAD), _deaf_to_ctrl_c():
             self._process.start()
         other_end.close()
         self.take(batch)
@@ -103,7 +104,6 @@ class _Worker:
 
 def serve(pipe: Connection) -> None:
     """Answer batches until the other end closes; runs in a process of its own."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     # What planners print does not belong among our answers on stdout.
     os.dup2(sys.__stderr__.fileno() if sys.__stderr__ else 2, 1)
     try:
@@ -113,6 +113,19 @@ def serve(pipe: Connection) -> None:
             pipe.send(None)
     except (EOFError, OSError):
         return
+
+
+@contextmanager
+def _deaf_to_ctrl_c() -> Iterator[None]:
+    """Children started within leave Ctrl-C to us, from their first moment on; only the main thread can see to that."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager

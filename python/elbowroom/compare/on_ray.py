@@ -5,31 +5,33 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Iterator, Sequence
+from importlib.util import find_spec
 from typing import Any
 
 from elbowroom.compare.row import Row
 from elbowroom.compare.worker import ONE_THREAD, Batch, Begun, Progress, answers
-from elbowroom.errors import BadSetting
+
+
+def ray_is_there() -> bool:
+    """Return whether ``run_on_ray`` can be called."""
+    try:
+        return find_spec("ray") is not None
+    except ValueError:
+        return False
 
 
 def run_on_ray(batches: Sequence[Batch], *, jobs: int | None) -> Iterator[Row]:
     """Yield the rows of ``batches`` as they are finished, one core a batch and up to ``jobs`` batches at a time.
 
     The cluster is the one that Ray is connected to already, else that of ``RAY_ADDRESS``, else a local one.
-
-    Raises:
-        BadSetting: Ray is not installed.
     """
-    try:
-        import ray
-    except ImportError:
-        raise BadSetting("--on ray needs the extra: pip install 'elbowroom[ray]'", setting="on") from None
+    import ray
     from ray.exceptions import RayError
 
     ours = not ray.is_initialized()
     if ours:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
-        # Asked for by Ray itself: its next default, said so that it does not warn.
+        # Ray's next default, chosen now so that it does not warn of the change.
         os.environ.setdefault("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
         local = {"include_dashboard": False} if "RAY_ADDRESS" not in os.environ else {}
         ray.init(log_to_driver=False, logging_level="ERROR", **local)

@@ -30,6 +30,8 @@ from elbowroom.figures.compare import Curve, Panel, Shares, convergence, side_by
 MOST_TASKS = 24
 """With more tasks than this each gets a line instead of a section with a picture."""
 
+CONVERGING = {"tip": "tip travel (m)", "joint": "joint travel (rad)", "time": "duration (s)"}
+
 ALWAYS = ("tip_length_m", "joint_travel_rad", "duration_s", "least_clearance_m", "time_s")
 """Columns shown even if nobody has a value; the others only if somebody has."""
 
@@ -72,7 +74,7 @@ def write_report(
             parts += [f"## {_cell(task.scene)}, task {_cell(task.task)}", _table(task, rows[0].objective)]
             parts.append(picture(save(_boxes(task, words), stem.with_name(stem.name + ".png")), words))
             if curves := _curves(task):
-                figure = convergence(words, "cost", curves)
+                figure = convergence(words, CONVERGING[rows[0].objective], curves)
                 parts.append(
                     picture(save(figure, stem.with_name(stem.name + "_convergence.png")), f"{words}: convergence")
                 )
@@ -271,10 +273,10 @@ def _overall_figure(summary: Summary) -> Figure:
 
     panels: list[Panel | Shares] = [
         Shares("success (%)", [(of.success.value, of.success.low, of.success.high) for of in summary.overall]),
-        Panel("cost over the task's best", [of.ratios for of in summary.overall]),
-        Panel("time (ms), medians", [times(of) for of in summary.overall], logarithmic=True),
+        Panel("cost over the task's best, a point each", [of.ratios for of in summary.overall]),
+        Panel("median time (ms), a point each", [times(of) for of in summary.overall], logarithmic=True),
     ]
-    title = f"{len(summary.tasks)} tasks, a point each"
+    title = f"over {len(summary.tasks)} tasks"
     return side_by_side(title, [of.planner for of in summary.overall], panels)
 
 

@@ -84,7 +84,9 @@ def _draw_boxes(axes: Axes, panel: Panel) -> None:
         axes.plot(values, heights, ".", color=INK, markersize=3, alpha=0.6, linestyle="none")
     if panel.logarithmic and any(len(values) for values in panel.values):
         axes.set_xscale("log")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        every = [value for values in panel.values for value in values]
+        subs = (1.0, 2.0, 5.0) if max(every) <= 100.0 * min(every) else (1.0,)
+        axes.xaxis.set_major_locator(LogLocator(subs=subs))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _place: f"{value:g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())
 
