@@ -1,8 +1,10 @@
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
@@ -232,3 +234,19 @@ def test_a_planner_that_goes_on_is_ended(scenes: Path, tmp_path: Path) -> None:
         "the planner did not keep its timeout of 0.2 s and was ended",
     )
     assert after.success
+
+
+def test_the_planner_in_the_docs_plans(standin: er.Scene) -> None:
+    page = (TESTS.parent / "docs" / "compare.md").read_text()
+    block = re.search(r"<!-- plug-in -->\n```python\n(.*?)```", page, re.DOTALL)
+    assert block is not None
+    names: dict[str, Any] = {}
+    exec(block[1], names)
+    ends = (er.Configuration((0.0, 0.5)), er.Configuration((-2.0, 0.6)))
+    scene = replace(standin, tasks={"go": er.Task(start=ends[0], goal=ends[1])})
+    asked = {"seed": 0, "timeout": None, "budget": None, "objective": "tip"}
+    found = names["halfway"](scene, "go", **asked)
+    assert er.check(scene, t=found.t, q=found.q, v=found.v, a=found.a).safe
+    assert found.evaluations > 1
+    with pytest.raises(er.NotFound, match="no middle is clear"):
+        names["halfway"](scene, "go", **{**asked, "budget": 1})

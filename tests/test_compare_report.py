@@ -5,15 +5,19 @@ import math
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.testing import CliRunner
 
 import elbowroom as er
+from elbowroom.cli.main import app
 from elbowroom.compare import Row
 from elbowroom.compare.generate import generated, write_scenes
 from elbowroom.compare.report import write_report
+from elbowroom.compare.row import FAILURES
 from elbowroom.compare.summary import summarised
 
 TESTS = Path(__file__).parent
@@ -156,8 +160,8 @@ def test_bad_input_is_one_message(scenes: Path, tmp_path: Path, arguments: tuple
         call.append(argument)
     if "--out" not in call:
         call += ["--out", str(tmp_path / "out")]
-    failed = shell("compare", *call)
-    assert failed.returncode == 2
+    failed = CliRunner().invoke(app, ["compare", *call])
+    assert failed.exit_code == 2
     assert words in failed.stderr
     assert "Traceback" not in failed.stderr
     assert failed.stdout == ""
@@ -176,3 +180,16 @@ def test_figures_take_anything(standin: er.Scene) -> None:
 def test_the_library_is_not_needed_for_help() -> None:
     code = "import sys, elbowroom.cli.main as m; sys.exit(any(n.startswith('elbowroom.compare') for n in sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+
+
+def test_the_docs_name_every_column_failure_and_file() -> None:
+    page = (TESTS.parent / "docs" / "compare.md").read_text()
+    for name in [
+        *(part.name for part in fields(Row)),
+        *FAILURES,
+        "report.md",
+        "rows.jsonl",
+        "rows.parquet",
+        "pairs.csv",
+    ]:
+        assert f"`{name}`" in page, name
