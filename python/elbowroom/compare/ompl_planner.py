@@ -167,6 +167,8 @@ def configurations(scene: Scene, place: Place, posture: str = "any") -> list[Flo
     """Return the configurations within the joint limits that are at ``place``, in a posture that will do."""
     if isinstance(place, Configuration):
         return [np.array(place.q, dtype=np.float64)]
+    if len(scene.arm.links) != 2:
+        raise BadSetting("planner ompl takes tips to reach for arms of 2 links only", setting="planners")
     first, second = scene.arm.links
     x, y = place[0] - scene.arm.base[0], place[1] - scene.arm.base[1]
     distance = math.hypot(x, y)
