@@ -131,7 +131,7 @@ class Scene:
         Raises:
             SceneError: The file cannot be read or is no scene; with file, line, column and key.
         """
-        return cls.parse(_text_of(Path(path)), file=str(path))
+        return cls.parse(text_of(Path(path)), file=str(path))
 
     @classmethod
     def example(cls, name: str) -> Scene:
@@ -168,7 +168,13 @@ class Scene:
         )
 
 
-def _text_of(path: Path) -> str:
+def text_of(path: Path) -> str:
+    """Return the text of the scene file at ``path``.
+
+    Raises:
+        SceneError: The file cannot be read, is too large, or is no UTF-8.
+    """
+
     def refused(what: str) -> SceneError:
         return SceneError(f"{path}: {what}", key="", file=str(path))
 

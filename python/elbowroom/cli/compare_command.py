@@ -1,0 +1,138 @@
+"""The command ``elbowroom compare``."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from elbowroom.cli.failure import reported
+
+
+def compare_command(
+    scenes: Annotated[list[Path], typer.Argument(help="Scene files (YAML); all their tasks are planned.")],
+    planners: Annotated[
+        str | None,
+        typer.Option(help="Names with commas between, options as NAME:OPTION=VALUE; elbowroom's own if left out."),
+    ] = None,
+    seeds: Annotated[int, typer.Option(min=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
+    budget: Annotated[
+        int | None, typer.Option(min=1, help="Evaluations a run, for planners that take a number; else their own.")
+    ] = None,
+    timeout: Annotated[float | None, typer.Option(help="A run gives up after so many seconds.")] = None,
+    objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
+    out: Annotated[
+        Path, typer.Option(help="Folder for the rows, report.md and the pictures; rows there are not run again.")
+    ] = Path("out/compare"),
+    jobs: Annotated[int | None, typer.Option(min=1, help="Runs at a time; all cores if left out.")] = None,
+    on: Annotated[str, typer.Option(help="local, or ray for a Ray cluster.")] = "local",
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Run planners side by side: every planner, task and seed, each motion judged by the verifier.
+
+    Stopped half-way, the same command goes on where it was.
+    """
+    with reported():
+        import json
+
+        from elbowroom.compare import compare
+        from elbowroom.compare.report import write_report
+        from elbowroom.planners import OWN, all_chosen
+
+        choices = all_chosen(",".join(OWN) if planners is None else planners)
+        with _goes_on(out), _progress() as (count, say):
+            done = compare(
+                scenes,
+                planners=choices,
+                out=out,
+                seeds=range(seeds),
+                budget=budget,
+                timeout=timeout,
+                objective=objective,  # type: ignore[arg-type]
+                jobs=jobs,
+                on=on,  # type: ignore[arg-type]
+                show=count,
+            )
+            labels = [choice.label for choice in choices]
+            asked = {"--seeds": seeds, "--budget": budget, "--timeout": timeout, "--objective": objective}
+            command = _command(scenes, {"--planners": ",".join(labels), **asked})
+            say("drawing")
+            report, *_ = write_report(done.rows, out, planners=labels, command=command, show=say)
+        successes = sum(row.success for row in done.rows)
+        if as_json:
+            found = {
+                "runs": len(done.rows),
+                "run_now": done.fresh,
+                "success": successes,
+                "rows": str(done.table),
+                "parquet": None if done.parquet is None else str(done.parquet),
+                "report": str(report),
+            }
+            typer.echo(json.dumps(found))
+            return
+        if done.healed:
+            typer.echo(f"{done.table}: a half-written last line was cut off and its run made again")
+        kept = len(done.rows) - done.fresh
+        typer.echo(
+            f"{len(done.rows)} runs, {successes} with success" + (f"; {kept} were there already" if kept else "")
+        )
+        if done.beside:
+            typer.echo(f"{done.beside} rows of other runs are in the table and not in the report")
+        typer.echo(f"wrote {done.table}" + ("" if done.parquet is None else f" and {done.parquet.name}"))
+        typer.echo(f"wrote {report}; the pictures are in {report.parent / 'figures'}")
+
+
+def _command(scenes: list[Path], options: dict[str, Any]) -> str:
+    """What to type for the same rows."""
+    files = [shlex.quote(str(path)) for path in scenes]
+    folder = scenes[0].parent
+    if len(scenes) > 1 and set(scenes) == set(folder.glob("*.yaml")):
+        files = [f"{shlex.quote(str(folder))}/*.yaml"]
+    words = [word for name, value in options.items() if value is not None for word in (name, str(value))]
+    return " ".join(["elbowroom", "compare", *files, shlex.join(words)])
+
+
+@contextmanager
+def _goes_on(out: Path) -> Iterator[None]:
+    """Say on Ctrl-C that nothing is lost."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        print(f"the rows so far are in {out}; the same command goes on from there", file=sys.stderr)
+        raise
+
+
+@contextmanager
+def _progress() -> Iterator[tuple[Callable[[int, int], None], Callable[[str], None]]]:
+    """Give a function for the runs done and of all, and one for words; both silent unless stderr is a terminal."""
+    if not sys.stderr.isatty():
+        yield lambda _done, _all: None, lambda _words: None
+        return
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        runs = bar.add_task("runs", total=None)
+        yield (
+            lambda done, total: bar.update(runs, completed=done, total=total),
+            lambda words: bar.update(runs, description=words),
+        )

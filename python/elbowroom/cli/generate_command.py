@@ -1,0 +1,30 @@
+"""The command ``elbowroom generate``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from elbowroom.cli.failure import reported
+
+
+def generate_command(
+    out: Annotated[Path, typer.Option(help="Folder for the scene files.")],
+    count: Annotated[int, typer.Option(min=1, help="How many scenes.")] = 50,
+    seed: Annotated[int, typer.Option(min=0, help="Same seed, same scenes.")] = 0,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Draw random scenes around the paper's arm, to compare planners on."""
+    with reported():
+        import json
+
+        from elbowroom.compare.generate import write_scenes
+
+        written = write_scenes(count, out, seed=seed)
+        if as_json:
+            typer.echo(json.dumps({"written": [str(path) for path in written]}))
+        else:
+            names = written[0].name if count == 1 else f"{written[0].name} to {written[-1].name}"
+            typer.echo(f"wrote {count} {'scene' if count == 1 else 'scenes'}, {names}, into {out}")

@@ -1,0 +1,17 @@
+"""Planners side by side: the same tasks, seeds and limits for all, every motion judged by the verifier.
+
+Example:
+    >>> from pathlib import Path
+    >>> from elbowroom.compare import compare
+    >>> from elbowroom.planners import all_chosen
+    >>> def compare_two(scene: Path) -> list[float | None]:
+    ...     found = compare([scene], planners=all_chosen("dstar,optimal"), seeds=range(3), out=Path("out/two"))
+    ...     return [row.cost for row in found.rows]
+"""
+
+from elbowroom.compare.comparison import Comparison, compare
+from elbowroom.compare.row import Problem, Row
+from elbowroom.compare.straight_turns import straight_turns
+from elbowroom.compare.table import Table
+
+__all__ = ["Comparison", "Problem", "Row", "Table", "compare", "straight_turns"]

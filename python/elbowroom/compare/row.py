@@ -1,0 +1,198 @@
+"""What one run is asked, and what came of it: a row of the table."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from typing import Any, Literal
+
+from elbowroom._core import __version__
+from elbowroom.errors import ElbowroomError
+from elbowroom.plan import Objective
+from elbowroom.planners import Choice, Option
+
+Failure = Literal[
+    "not_found",
+    "timed_out",
+    "not_free",
+    "refused",
+    "no_motion",
+    "unsafe",
+    "wrong_end",
+    "broken",
+    "crashed",
+]
+
+FAILURES: dict[str, str] = {
+    "not_found": "the planner found nothing",
+    "timed_out": "the timeout came first",
+    "not_free": "start or goal is not free",
+    "refused": "the planner does not serve this arm, task or setting",
+    "no_motion": "what the planner returned is no motion",
+    "unsafe": "the verifier does not call the motion safe",
+    "wrong_end": "the motion begins or ends elsewhere, or in the wrong posture",
+    "broken": "the planner raised what it should not",
+    "crashed": "the planner ended its process",
+}
+"""What can become of a run instead of success."""
+
+MEASURED = ("time_s", "stages_s")
+"""Columns that no two runs share; in all others the same run gives the same row."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Problem:
+    """One run: a planner with its settings on a task of a scene, with a seed and limits."""
+
+    scene: str
+    scene_sha256: str
+    task: str
+    planner: str
+    settings: Mapping[str, Option]
+    seed: int
+    budget: int | None
+    timeout_s: float | None
+    objective: Objective
+    version: str
+    provider: str
+
+    @classmethod
+    def of(
+        cls,
+        choice: Choice,
+        *,
+        scene: str,
+        content: bytes,
+        task: str,
+        seed: int,
+        budget: int | None,
+        timeout: float | None,
+        objective: Objective,
+    ) -> Problem:
+        """Return the run of ``choice`` on the scene file ``scene`` with that ``content``."""
+        return cls(
+            scene=scene,
+            scene_sha256=hashlib.sha256(content).hexdigest(),
+            task=task,
+            planner=choice.label,
+            settings=choice.settings,
+            seed=seed,
+            budget=budget,
+            timeout_s=timeout,
+            objective=objective,
+            version=__version__,
+            provider=choice.provider,
+        )
+
+    @property
+    def name(self) -> str:
+        """The planner's name alone."""
+        return self.planner.partition(":")[0]
+
+    @property
+    def key(self) -> str:
+        """What makes it this run and no other: all but where the scene's file lies."""
+        return json.dumps([getattr(self, name) for name in KEY], sort_keys=True)
+
+
+KEY = tuple(part.name for part in fields(Problem) if part.name != "scene")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Row(Problem):
+    """A finished run. What does not apply, or is not known, is None.
+
+    Attributes:
+        found: Whether the planner handed out a motion.
+        safe: Whether the verifier calls that motion safe.
+        success: Whether it is safe and does the task.
+        cost: What it costs in terms of the objective.
+        tip_length_m: How far the tip travels.
+        joint_travel_rad: Length of the curve in the space of the joints.
+        duration_s: How long the motion takes.
+        least_clearance_m: The nearest that a link comes to an obstacle.
+        evaluations: Candidate paths that the planner judged, where it counts them.
+        lower_bound: No motion costs less.
+        gap: How far ``cost`` may be above the best, as a share of it.
+        failure: A key of ``FAILURES``.
+        message: The failure in words.
+        time_s: From the question to the judged motion, or to the failure.
+        stages_s: The same by stage, as far as the planner tells.
+        convergence: Evaluations made and the best cost by then.
+    """
+
+    found: bool
+    safe: bool | None = None
+    success: bool
+    cost: float | None = None
+    tip_length_m: float | None = None
+    joint_travel_rad: float | None = None
+    duration_s: float | None = None
+    least_clearance_m: float | None = None
+    evaluations: int | None = None
+    lower_bound: float | None = None
+    gap: float | None = None
+    failure: str | None = None
+    message: str | None = None
+    time_s: float
+    stages_s: Mapping[str, float]
+    convergence: Sequence[Sequence[float]] | None = None
+
+    @classmethod
+    def failed(
+        cls, problem: Problem, failure: Failure, message: str, *, time_s: float, found: bool = False, **known: Any
+    ) -> Row:
+        """Return the row of a run without success."""
+        told = " ".join(message.split())[:LONGEST_MESSAGE]
+        return cls.after(
+            problem,
+            found=found,
+            success=False,
+            failure=failure,
+            message=told,
+            time_s=time_s,
+            **({"stages_s": {}} | known),
+        )
+
+    @classmethod
+    def after(cls, problem: Problem, **came: Any) -> Row:
+        """Return ``problem`` with what came of it."""
+        return cls(**{part.name: getattr(problem, part.name) for part in fields(Problem)}, **came)
+
+    def as_line(self) -> str:
+        """Return the row as a line of JSON, without its end."""
+        return json.dumps(asdict(self), allow_nan=False)
+
+    @classmethod
+    def from_line(cls, line: str) -> Row:
+        """Return the row in a line of JSON.
+
+        Raises:
+            DamagedRow: The line holds no row of this version.
+        """
+        try:
+            read = json.loads(line)
+        except (json.JSONDecodeError, RecursionError):
+            raise DamagedRow("no JSON") from None
+        names = [part.name for part in fields(cls)]
+        if not isinstance(read, dict):
+            raise DamagedRow("no JSON object")
+        if missing := [name for name in names if name not in read]:
+            raise DamagedRow(f"column {missing[0]} is missing")
+        if unknown := [name for name in read if name not in names]:
+            raise DamagedRow(f"no such column: {unknown[0][:40]}")
+        return cls(**read)
+
+    @property
+    def lasting(self) -> dict[str, Any]:
+        """All columns but the measured times: the same whenever and wherever the run is made."""
+        return {name: value for name, value in asdict(self).items() if name not in MEASURED}
+
+
+LONGEST_MESSAGE = 500
+
+
+class DamagedRow(ElbowroomError, ValueError):
+    """A line that is no row."""

@@ -1,0 +1,195 @@
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from collections import Counter
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+import elbowroom as er
+from elbowroom.cli.main import app
+from elbowroom.compare import Row
+from elbowroom.compare.generate import generated, write_scenes
+from elbowroom.compare.report import write_report
+from elbowroom.compare.row import FAILURES
+from elbowroom.compare.summary import summarised
+
+TESTS = Path(__file__).parent
+
+
+def shell(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", "from elbowroom.cli import main; main()", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+
+
+def made(planner: str, seed: int, cost: float | None, *, task: str = "a", scene: str = "s.yaml") -> Row:
+    common: dict[str, Any] = {
+        "scene": scene,
+        "scene_sha256": scene,
+        "task": task,
+        "planner": planner,
+        "settings": {},
+        "seed": seed,
+        "budget": None,
+        "timeout_s": None,
+        "objective": "tip",
+        "version": "0",
+        "provider": "x",
+        "time_s": 0.5,
+        "stages_s": {},
+    }
+    if cost is None:
+        return Row(**common, found=True, safe=False, success=False, failure="unsafe", message="m")
+    return Row(**common, found=True, safe=True, success=True, cost=cost, tip_length_m=cost)
+
+
+def test_the_summary_counts() -> None:
+    rows = [made("x", i, cost) for i, cost in enumerate((1.0, 2.0, 3.0, None))]
+    rows += [made("y", i, cost) for i, cost in enumerate((2.0, 2.0 * (1 + 1e-14), None, None))]
+    rows += [made("x", 0, 4.0, task="b"), made("y", 0, None, task="b")]
+    summary = summarised(rows, ["y", "x"])
+    first, second = summary.tasks
+    assert [cell.planner for cell in first.cells] == ["y", "x"]
+    assert [cell.success.value for cell in first.cells] == [0.5, 0.75]
+    assert [cell.unsafe for cell in first.cells] == [2, 1]
+    medians = [cell.medians["tip_length_m"] for cell in first.cells]
+    assert [interval.value for interval in medians if interval] == pytest.approx([200.0, 200.0])
+    assert second.cells[0].medians["tip_length_m"] is None
+    cost = next(pair for pair in first.pairs if pair.metric == "cost")
+    # y has 2, 2, inf, inf and x has 1, 2, 3, inf.
+    assert (cost.less, cost.equal, cost.greater) == (4, 4, 8)
+    assert cost.delta == pytest.approx(0.25)
+    assert cost.a12 == pytest.approx(0.625)
+    y, x = summary.overall
+    assert (x.success.value, y.success.value) == (0.8, 0.4)
+    assert (x.ratios, x.best_on, y.ratios, y.best_on) == ([1.0, 1.0], 2, [1.0], 1)
+    # Over the tasks, medians with failures behind: y inf, inf against x 2.5, 4.
+    over = next(pair for pair in summary.pairs if pair.metric == "cost")
+    assert (over.less, over.equal, over.greater, over.p) == (0, 0, 2, 0.5)
+    assert summarised(rows[:8], ["x", "y"]).pairs == []
+
+
+def test_many_tasks_have_a_line_each(tmp_path: Path) -> None:
+    rows = [made(p, s, 1.0 + s, task=f"t{i}") for i in range(30) for p in "xy" for s in range(2)]
+    report, _, *pictures = write_report(rows, tmp_path, planners=["x", "y"], command="c")
+    assert [path.name for path in pictures] == ["overall.png"]
+    assert report.read_text().count("| s | t") == 30
+    same_name = [made("x", 0, 1.0, scene="a/s.yaml"), made("x", 0, 1.0, scene="b/s.yaml")]
+    assert [task.scene for task in summarised(same_name, ["x"]).tasks] == ["a/s.yaml", "b/s.yaml"]
+
+
+def test_generated_scenes_are_the_same_for_a_seed_and_free_at_both_ends(tmp_path: Path) -> None:
+    paths = write_scenes(12, tmp_path / "new", seed=5)
+    assert [path.name for path in paths][:2] == ["seed5-01.yaml", "seed5-02.yaml"]
+    assert len({path.read_bytes() for path in paths}) == 12
+    kinds: Counter[str] = Counter()
+    for number, path in enumerate(paths, 1):
+        assert path.read_text() == generated(number, seed=5)
+        scene = er.Scene.load(path)
+        kinds.update(type(obstacle).__name__ for obstacle in scene.obstacles)
+        assert list(scene.tasks) == ["first", "second"]
+        for task in scene.tasks.values():
+            start, goal = task.start, task.goal
+            assert not isinstance(start, er.Configuration)
+            assert not isinstance(goal, er.Configuration)
+            assert math.dist(start, goal) >= 0.3
+        space = er.free_space(scene)
+        for task in scene.tasks.values():
+            for x, y in (task.start, task.goal):  # type: ignore[misc]
+                column, row = round((x + 0.5) / 0.01), round((y + 0.5) / 0.01)
+                assert space.union[row, column]
+    assert min(kinds.values()) > 10
+    with pytest.raises(er.BadSetting, match="count is 0"):
+        write_scenes(0, tmp_path, seed=0)
+
+
+def test_compare_on_the_command_line(tmp_path: Path) -> None:
+    generate = shell("generate", "--count", "1", "--seed", "1", "--out", tmp_path / "scenes")
+    assert generate.stdout.startswith("wrote 1 scene, seed1-1.yaml")
+    files = sorted((tmp_path / "scenes").iterdir())
+    call = (
+        "compare",
+        *files,
+        "--seeds",
+        "2",
+        "--planners",
+        "dstar,optimal",
+        "--out",
+        tmp_path / "out",
+        "--timeout",
+        "60",
+    )
+    done = shell(*call, "--json")
+    assert done.returncode == 0
+    assert done.stderr == ""
+    told = json.loads(done.stdout)
+    assert (told["runs"], told["run_now"]) == (8, 8)
+    again = shell(*call)
+    assert "8 were there already" in again.stdout
+    report = (tmp_path / "out" / "report.md").read_text()
+    assert report.count("## ") == 4
+    assert "--planners dstar,optimal --seeds 2 --timeout 60.0 --objective tip" in report
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("missing.yaml",), "missing.yaml: cannot be read"),
+        (("SCENE", "--planners", "rrt"), "known: dstar-pso, dstar, optimal"),
+        (("SCENE", "--planners", "dstar:speed=2"), "no option 'speed'"),
+        (("SCENE", "--seeds", "0"), "--seeds"),
+        (("SCENE", "--objective", "fun"), "tip, joint or time"),
+        (("SCENE", "--out", "FILE"), "File exists"),
+        (("SCENE", "--out", "FILE/below"), "Not a directory"),
+        (("SCENE", "--on", "moon"), "local or ray"),
+    ],
+)
+def test_bad_input_is_one_message(scenes: Path, tmp_path: Path, arguments: tuple[str, ...], words: str) -> None:
+    (tmp_path / "file").write_text("")
+    stand_ins = {"SCENE": str(scenes / "paper-standin.yaml"), "FILE": str(tmp_path / "file")}
+    call = []
+    for argument in arguments:
+        for name, value in stand_ins.items():
+            argument = argument.replace(name, value)
+        call.append(argument)
+    if "--out" not in call:
+        call += ["--out", str(tmp_path / "out")]
+    failed = CliRunner().invoke(app, ["compare", *call])
+    assert failed.exit_code == 2
+    assert words in failed.stderr
+    assert "Traceback" not in failed.stderr
+    assert failed.stdout == ""
+
+
+def test_figures_take_anything(standin: er.Scene) -> None:
+    from elbowroom.figures.compare import Panel, Shares, convergence, side_by_side
+
+    panels = [Panel("empty", [[], []], logarithmic=True), Panel("one", [[1.0], []]), Shares("s", [(0.5, 0.1, 0.9)] * 2)]
+    side_by_side("none", ["x", "y"], panels).canvas.draw()
+    curves: dict[str, Any] = {"x": [[(1, 5.0), (10, 2.0)], [(2, 4.0)]], "y": [[]], "z": []}
+    convergence("c", "cost", curves).canvas.draw()
+    assert standin
+
+
+def test_the_library_is_not_needed_for_help() -> None:
+    code = "import sys, elbowroom.cli.main as m; sys.exit(any(n.startswith('elbowroom.compare') for n in sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
+
+
+def test_the_docs_name_every_column_failure_and_file() -> None:
+    page = (TESTS.parent / "docs" / "compare.md").read_text()
+    for name in [
+        *(part.name for part in fields(Row)),
+        *FAILURES,
+        "report.md",
+        "rows.jsonl",
+        "rows.parquet",
+        "pairs.csv",
+    ]:
+        assert f"`{name}`" in page, name
