@@ -119,15 +119,26 @@ class NotFree(ElbowroomError, ValueError):
 class NoPath(ElbowroomError):
     """It is proved that no motion does the task.
 
-    ``open`` holds, cell by cell, the corners (rad) of convex cells in the plane of both joints: together they hold every
-    configuration that can be reached from the start, and their outer walls are forbidden all along.
+    ``reachable`` holds the corners (rad) of convex cells in the plane of both joints, cell by cell: together they hold
+    every configuration that can be reached from ``starts``, and their outer walls are forbidden all along. None of
+    ``goals`` lies there.
     """
 
     task: str
-    open: Sequence[Sequence[tuple[float, float]]]
+    reachable: Sequence[Sequence[Sequence[float]]]
+    starts: Sequence[Sequence[float]]
+    goals: Sequence[Sequence[float]]
 
-    def __init__(self, message: str, *, task: str, open: Sequence[Sequence[tuple[float, float]]]) -> None:
-        super().__init__(message, task=task, open=open)
+    def __init__(
+        self,
+        message: str,
+        *,
+        task: str,
+        reachable: Sequence[Sequence[Sequence[float]]],
+        starts: Sequence[Sequence[float]],
+        goals: Sequence[Sequence[float]],
+    ) -> None:
+        super().__init__(message, task=task, reachable=reachable, starts=starts, goals=goals)
 
 
 class NotFound(ElbowroomError):

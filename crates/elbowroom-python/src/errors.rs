@@ -158,7 +158,9 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         }
         PlanError::NoPath(proof) => exception(py, "NoPath", &message, |fields| {
             fields.set_item("task", task)?;
-            fields.set_item("open", &proof.open)
+            fields.set_item("reachable", &proof.reachable)?;
+            fields.set_item("starts", &proof.starts)?;
+            fields.set_item("goals", &proof.goals)
         }),
         PlanError::Gap { .. } => setting(py, "gap", &message),
         PlanError::Stopped => timed_out(py, timeout),

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from elbowroom.cli.failure import reported
+
+if TYPE_CHECKING:
+    from elbowroom.plan import Plan
+    from elbowroom.scene import Scene
 
 
 def plan_command(
@@ -19,7 +24,8 @@ def plan_command(
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
     duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
     gap: Annotated[
-        float | None, typer.Option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %).")
+        float | None,
+        typer.Option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %)."),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
     animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
@@ -42,16 +48,20 @@ def plan_command(
             raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
         loaded = Scene.load(scene)
         with progress() as show:
-            plan = make_plan(
+            plan = _planned(
+                lambda: make_plan(
+                    loaded,
+                    task=task,
+                    planner=planner,  # type: ignore[arg-type]
+                    objective=objective,  # type: ignore[arg-type]
+                    seed=seed,
+                    timeout=timeout,
+                    duration=seconds,
+                    gap=gap,
+                    on_stage=show,
+                ),
                 loaded,
-                task=task,
-                planner=planner,  # type: ignore[arg-type]
-                objective=objective,  # type: ignore[arg-type]
-                seed=seed,
-                timeout=timeout,
-                duration=seconds,
-                gap=gap,
-                on_stage=show,
+                out,
             )
             written: list[Path] = []
             if out is not None:
@@ -65,6 +75,20 @@ def plan_command(
         typer.echo(in_words(plan))
         for path in written:
             typer.echo(f"wrote {path}")
+
+
+def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
+    """What ``make`` returns; where it proves that there is no path the proof is drawn into ``out``."""
+    from elbowroom.errors import NoPath
+
+    try:
+        return make()
+    except NoPath as proof:
+        if out is not None:
+            from elbowroom import figures
+
+            typer.echo(f"wrote {figures.save(figures.no_path(scene, proof), out / 'no_path.png')}", err=True)
+        raise
 
 
 def _seconds(duration: str) -> float | None:

@@ -14,6 +14,7 @@ from elbowroom.plan import Objective
 from elbowroom.planners import Choice, Option
 
 Failure = Literal[
+    "no_path",
     "not_found",
     "timed_out",
     "not_free",
@@ -26,6 +27,7 @@ Failure = Literal[
 ]
 
 FAILURES: dict[str, str] = {
+    "no_path": "it is proved that there is no path",
     "not_found": "the planner found nothing",
     "timed_out": "the timeout came first",
     "not_free": "start or goal is not free",

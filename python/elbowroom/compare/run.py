@@ -13,7 +13,7 @@ from elbowroom._core import Motion
 from elbowroom.check import check
 from elbowroom.compare.measure import lengths, misses
 from elbowroom.compare.row import Failure, Problem, Row
-from elbowroom.errors import BadSetting, NotFound, NotFree, TimedOut, TrajectoryError, UnknownTask
+from elbowroom.errors import BadSetting, NoPath, NotFound, NotFree, TimedOut, TrajectoryError, UnknownTask
 from elbowroom.plan import Plan
 from elbowroom.planners import BrokenPlugin, PlannerPlugin, Proposal, load
 from elbowroom.scene import Scene
@@ -34,6 +34,8 @@ def run(problem: Problem, scene: Scene) -> Row:
     begun = perf_counter()
     try:
         return _judged(problem, scene, _asked(planner, problem, scene), begun)
+    except NoPath as error:
+        return failed("no_path", error)
     except NotFound as error:
         return failed("not_found", error)
     except TimedOut as error:

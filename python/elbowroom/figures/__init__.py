@@ -5,6 +5,7 @@ from elbowroom.figures.clearance import clearance_curve
 from elbowroom.figures.configuration_space import configuration_space
 from elbowroom.figures.curves import joint_curves, tip_curve
 from elbowroom.figures.maps import posture_map, union_map
+from elbowroom.figures.no_path import no_path
 from elbowroom.figures.paths import arm_tracking, smoothed_path, tip_path
 from elbowroom.figures.style import save
 
@@ -14,6 +15,7 @@ __all__ = [
     "clearance_curve",
     "configuration_space",
     "joint_curves",
+    "no_path",
     "posture_map",
     "save",
     "smoothed_path",

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from elbowroom.figures.style import COLLISION, GOAL, INK, LIMIT, SMOOTHED, START, new_figure
 from elbowroom.plan import Plan
-from elbowroom.scene import Joint
+from elbowroom.scene import Joint, Scene
 
 POINTS = 361
 """How finely each joint's range is looked at; the picture shows, the verifier decides."""
@@ -18,22 +19,9 @@ POINTS = 361
 def configuration_space(plan: Plan) -> Figure:
     """Return theta 1 and theta 2 with the configurations in contact, the stops, and the motion through them."""
     samples = plan.at(np.linspace(0.0, plan.motion.duration, 4001))
-    ranges = [_range(joint, samples.q[:, j]) for j, joint in enumerate(plan.scene.arm.joints)]
-    axes_of = [np.linspace(low, high, POINTS) for low, high in ranges]
-    q1, q2 = np.meshgrid(*axes_of)
-    clearance = plan.scene.core.link_clearances(np.column_stack([q1.ravel(), q2.ravel()])).min(axis=1).reshape(q1.shape)
+    ranges = [shown_range(joint, samples.q[:, j]) for j, joint in enumerate(plan.scene.arm.joints)]
     figure, axes = new_figure(width=7.4, height=5.4)
-    left, right, bottom, top = np.degrees([*ranges[0], *ranges[1]])
-    axes.imshow(
-        clearance <= 0.0,
-        origin="lower",
-        extent=(left, right, bottom, top),
-        cmap=ListedColormap(["white", COLLISION]),
-        interpolation="nearest",
-        vmin=0,
-        vmax=1,
-        zorder=1,
-    )
+    draw_contacts(axes, plan.scene, ranges)
     degrees = np.degrees(samples.q)
     axes.plot(degrees[:, 0], degrees[:, 1], color=SMOOTHED, linewidth=2.0, zorder=4, label="motion")
     places = np.degrees(plan.at(np.append(plan.motion.starts, plan.motion.duration)).q)
@@ -63,14 +51,6 @@ def configuration_space(plan: Plan) -> Figure:
             label=label,
             linestyle="none",
         )
-    for joint, line in zip(plan.scene.arm.joints, (axes.axvline, axes.axhline), strict=True):
-        if not joint.continuous and joint.min is not None and joint.max is not None:
-            for stop in (joint.min, joint.max):
-                line(np.degrees(stop), color=LIMIT, linewidth=3.0, zorder=2)
-    axes.axhline(0.0, color=INK, linewidth=0.6, linestyle=":", zorder=2)
-    axes.set_aspect("equal")
-    axes.set_xlabel("theta 1 (deg)")
-    axes.set_ylabel("theta 2 (deg)")
     axes.set_title(f"task '{plan.task}': configuration space (postures meet on the dotted line)", fontsize=11)
     handles, labels = axes.get_legend_handles_labels()
     axes.legend(
@@ -85,7 +65,32 @@ def configuration_space(plan: Plan) -> Figure:
     return figure
 
 
-def _range(joint: Joint, q: np.typing.NDArray[np.float64]) -> tuple[float, float]:
+def draw_contacts(axes: Axes, scene: Scene, ranges: list[tuple[float, float]]) -> None:
+    """Draw what is in contact and where the stops are, for joints within ``ranges`` (rad)."""
+    q1, q2 = np.meshgrid(*(np.linspace(low, high, POINTS) for low, high in ranges))
+    clearance = scene.core.link_clearances(np.column_stack([q1.ravel(), q2.ravel()])).min(axis=1).reshape(q1.shape)
+    left, right, bottom, top = np.degrees([*ranges[0], *ranges[1]])
+    axes.imshow(
+        clearance <= 0.0,
+        origin="lower",
+        extent=(left, right, bottom, top),
+        cmap=ListedColormap(["white", COLLISION]),
+        interpolation="nearest",
+        vmin=0,
+        vmax=1,
+        zorder=1,
+    )
+    for joint, line in zip(scene.arm.joints, (axes.axvline, axes.axhline), strict=True):
+        if not joint.continuous and joint.min is not None and joint.max is not None:
+            for stop in (joint.min, joint.max):
+                line(np.degrees(stop), color=LIMIT, linewidth=3.0, zorder=2)
+    axes.axhline(0.0, color=INK, linewidth=0.6, linestyle=":", zorder=2)
+    axes.set_aspect("equal")
+    axes.set_xlabel("theta 1 (deg)")
+    axes.set_ylabel("theta 2 (deg)")
+
+
+def shown_range(joint: Joint, q: np.typing.NDArray[np.float64]) -> tuple[float, float]:
     """What is shown of a joint: its range with a little room, or the turn around the motion."""
     if not joint.continuous and joint.min is not None and joint.max is not None:
         room = 0.05

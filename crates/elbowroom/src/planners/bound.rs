@@ -40,7 +40,11 @@ pub(crate) fn prove(
     let measure = measure_of(objective, limits);
     for share in TRIED {
         match with_walls(scene, problem, measure, share * distance, &|| monitor.keep_going()) {
-            Ok(OverJoints::Parted(open)) => return Ok(Proved::NoPath(NoPath { open })),
+            Ok(OverJoints::Parted(reachable)) => {
+                let [starts, goals] =
+                    [&problem.starts, &problem.goals].map(|ends| ends.iter().map(|q| q.0).collect());
+                return Ok(Proved::NoPath(NoPath { reachable, starts, goals }));
+            }
             Ok(OverJoints::AtLeast(way)) => {
                 return Ok(Proved::AtLeast(match objective {
                     Objective::Joint => way,

@@ -52,7 +52,11 @@ impl Plan {
 #[error("no path: proved, forbidden configurations part all that the start can reach from the goal")]
 pub struct NoPath {
     /// Corners of convex cells that hold all configurations that can be reached (rad), each counter-clockwise.
-    pub open: Vec<Vec<[f64; 2]>>,
+    pub reachable: Vec<Vec<[f64; 2]>>,
+    /// The configurations it may start from (rad).
+    pub starts: Vec<[f64; 2]>,
+    /// Those that would do as a goal (rad).
+    pub goals: Vec<[f64; 2]>,
 }
 
 /// Why there is no plan.
