@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from test_cli import run
 
 import elbowroom as er
 from elbowroom.plan_files import as_json
@@ -55,7 +56,18 @@ def test_no_path_is_proved_and_drawn(tmp_path: Path, planner: str) -> None:
     proof = caught.value
     assert len(proof.reachable) > 10
     assert all(abs(q2) <= 1.58 for cell in proof.reachable for _, q2 in cell)
-    done = run("plan", path, "--task", "second", "--planner", planner, "--out", tmp_path)
+    command = [
+        sys.executable,
+        "-c",
+        "from elbowroom.cli import main; main()",
+        "plan",
+        str(path),
+        "--task",
+        "second",
+        "--planner",
+        planner,
+    ]
+    done = subprocess.run([*command, "--out", str(tmp_path)], capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 1
     assert "no path: proved" in done.stderr
     assert (tmp_path / "no_path.png").stat().st_size > 5000
