@@ -13,11 +13,14 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::arm::{Configuration, JointLimits, Posture};
+use elbowroom::arm::{Configuration, Joint, JointLimits, Posture, TwoLinkArm};
 use elbowroom::free_space::configurations;
+use elbowroom::geometry::Point;
 use elbowroom::path::sweep_keeps;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Scene, Task, TaskPosture};
+use elbowroom::surface::{Measure, Side, Surface, SurfacePlace};
+use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What brute force finds.
 struct Judged {
@@ -291,6 +294,88 @@ fn campaign(seeds: std::ops::Range<u64>, points: usize) -> Count {
         }
     }
     count
+}
+
+/// A triangle around `at` with sides of about `size`, all of them walls.
+fn walled(at: [f64; 2], size: f64, numbers: &mut worlds::Numbers) -> Option<Surface> {
+    let turned = numbers.within(0.0, TAU);
+    let corner = |i: usize| {
+        let angle = turned + TAU * i as f64 / 3.0;
+        Point::new(at[0] + size * angle.cos(), at[1] + size * angle.sin())
+    };
+    Surface::new(&[(0..3).map(|i| Side { from: corner(i), across: None }).collect()]).ok()
+}
+
+/// Whether the judge finds a place of the triangle's sides that is clear by more than rounding.
+fn has_a_gap(surface: &Surface, clearance: impl Fn(Point) -> f64) -> bool {
+    let sides = surface.sides(0);
+    (0..3).any(|i| {
+        let (a, b) = (sides[i].from, sides[(i + 1) % 3].from);
+        (0..=300).any(|k| clearance(a.lerp(b, f64::from(k) / 300.0)) > 1e-9)
+    })
+}
+
+#[test]
+fn walls_that_the_verifier_accepts_are_blocked_all_along() {
+    let (mut accepted, mut refused) = ([0; 2], [0; 2]);
+    for seed in 0..4_000 {
+        let Some(mut scene) = worlds::world(seed) else { continue };
+        scene.arm = TwoLinkArm::new(scene.arm.base(), scene.arm.lengths(), scene.arm.half_width(), {
+            scene.arm.joints().map(|joint| Joint { limits: JointLimits::Continuous, ..joint })
+        })
+        .unwrap();
+        let mut numbers = worlds::Numbers::seeded(seed ^ 0xC3C3);
+        for _ in 0..10 {
+            let q = [numbers.within(-PI, PI), numbers.within(-PI, PI)];
+            let size = 10f64.powf(numbers.within(-4.0, -0.7));
+            let tip = scene.arm.tip(&Configuration(q));
+            let at = [q, [tip.x, tip.y]];
+            let in_contact = [
+                judge::clearance(&scene, q) < 0.0,
+                scene.obstacles.iter().any(|o| distance::distance(o, at[1], at[1]) < scene.arm.half_width()),
+            ];
+            for plane in (0..2).filter(|&plane| in_contact[plane]) {
+                let Some(surface) = walled(at[plane], size, &mut numbers) else { continue };
+                let place = SurfacePlace { cell: 0, point: Point::new(at[plane][0], at[plane][1]) };
+                let ends = [(Configuration(q), place)];
+                let (found, gap) = if plane == 0 {
+                    let claim = OpenJoints {
+                        surface: &surface,
+                        starts: &ends,
+                        goals: &[],
+                        keeps_posture: false,
+                        margin: 0.0,
+                    };
+                    let gap = has_a_gap(&surface, |p| judge::clearance(&scene, [p.x, p.y]));
+                    (bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true), gap)
+                } else {
+                    let claim = OpenTips { surface: &surface, starts: &ends, goals: &[], margin: 0.0 };
+                    let clear = |p: Point| {
+                        let to =
+                            scene.obstacles.iter().map(|o| distance::distance(o, [p.x, p.y], [p.x, p.y]));
+                        let reach = p.distance(scene.arm.base());
+                        let [near, far] = scene.arm.reach();
+                        let reached = (near..=far).contains(&reach);
+                        let clearance = to.fold(f64::INFINITY, f64::min) - scene.arm.half_width();
+                        if reached { clearance } else { -1.0 }
+                    };
+                    (bound_over_tips(&scene, &claim, &|| true), has_a_gap(&surface, clear))
+                };
+                match found {
+                    Ok(Reachability::Parted) => {
+                        assert!(
+                            !gap,
+                            "seed {seed}, plane {plane}: a wall around {at:?} of size {size} has a gap"
+                        );
+                        accepted[plane] += 1;
+                    }
+                    Err(BoundError::Wall { .. } | BoundError::TipWall { .. }) => refused[plane] += 1,
+                    other => panic!("seed {seed}: {other:?}"),
+                }
+            }
+        }
+    }
+    assert!(accepted.iter().chain(&refused).all(|&count| count > 100), "{accepted:?}, {refused:?}");
 }
 
 #[test]

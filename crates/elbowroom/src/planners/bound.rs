@@ -1,6 +1,6 @@
 //! What no motion can cost less than, and tasks that no motion can do.
 
-use super::chart::{JointChart, Walls, sheet_ranges};
+use super::chart::{JointChart, Walls, sheet_ranges, tip_chart};
 use super::problem::Problem;
 use super::settings::Objective;
 use super::{Monitor, NoPath, PlanError};
@@ -9,7 +9,7 @@ use crate::geometry::wrap_angle;
 use crate::scene::Scene;
 use crate::surface::{Measure, SurfacePlace};
 use crate::trajectory::SpeedLimits;
-use crate::verify::{BoundError, OpenJoints, Reachability, bound_over_joints};
+use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What was proved of a task.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,7 +49,7 @@ pub(crate) fn prove(
                 return Ok(Proved::AtLeast(match objective {
                     Objective::Joint => way,
                     Objective::Time => from_rest_to_rest(way, limits),
-                    Objective::Tip => tip_bound(scene, problem),
+                    Objective::Tip => tip_bound(scene, problem, distance, &|| monitor.keep_going())?,
                 }));
             }
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -77,14 +77,33 @@ fn from_rest_to_rest(way: f64, limits: &[SpeedLimits; 2]) -> f64 {
     limits.iter().map(least).fold(f64::INFINITY, f64::min)
 }
 
-/// The straight way of the tip (m).
-fn tip_bound(scene: &Scene, problem: &Problem) -> f64 {
-    let tips = |places: &[Configuration<2>]| places.iter().map(|q| scene.arm.tip(q)).collect::<Vec<_>>();
+/// The shortest way of the tip among obstacles and around what it cannot reach, whatever the links touch (m): the
+/// verified bound, or the straight way where it was not accepted.
+fn tip_bound(
+    scene: &Scene,
+    problem: &Problem,
+    distance: f64,
+    keep_going: &dyn Fn() -> bool,
+) -> Result<f64, PlanError> {
+    let walls = Walls { inside: true, distance };
+    let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
+    let places = |ends: &[Configuration<2>]| -> Option<Vec<(Configuration<2>, SurfacePlace)>> {
+        ends.iter().map(|q| Some((*q, chart.place(scene.arm.tip(q))?))).collect()
+    };
+    if let (Some(starts), Some(goals)) = (places(&problem.starts), places(&problem.goals)) {
+        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &goals, margin: 0.0 };
+        match bound_over_tips(scene, &claim, keep_going) {
+            Ok(Reachability::AtLeast { cost, .. }) => return Ok(cost),
+            Err(BoundError::Stopped) => return Err(PlanError::Stopped),
+            Ok(Reachability::Parted) | Err(_) => {}
+        }
+    }
+    let tips = |ends: &[Configuration<2>]| ends.iter().map(|q| scene.arm.tip(q)).collect::<Vec<_>>();
     let goals = tips(&problem.goals);
     let straight = tips(&problem.starts)
         .into_iter()
         .flat_map(|start| goals.iter().map(move |goal| start.distance(*goal)));
-    straight.fold(f64::INFINITY, f64::min)
+    Ok(straight.fold(f64::INFINITY, f64::min))
 }
 
 enum OverJoints {
@@ -110,7 +129,7 @@ fn with_walls(
             on_chart(scene, &chart, range, &problem.goals)?,
         );
         let claim = OpenJoints {
-            surface: &chart.surface,
+            surface: &chart.sewn.surface,
             starts: &starts,
             goals: &goals,
             keeps_posture: !problem.may_flip,
@@ -119,9 +138,10 @@ fn with_walls(
         match bound_over_joints(scene, &claim, measure, keep_going)? {
             Reachability::AtLeast { cost, .. } => least = least.min(cost),
             Reachability::Parted => {
-                let reached = chart.surface.reached_from(starts.iter().map(|(_, place)| place.cell));
-                let cells = (0..chart.surface.len()).filter(|&cell| reached[cell]);
-                let corners = |cell| chart.surface.sides(cell).iter().map(|side| [side.from.x, side.from.y]);
+                let reached = chart.sewn.surface.reached_from(starts.iter().map(|(_, place)| place.cell));
+                let cells = (0..chart.sewn.surface.len()).filter(|&cell| reached[cell]);
+                let corners =
+                    |cell| chart.sewn.surface.sides(cell).iter().map(|side| [side.from.x, side.from.y]);
                 open.extend(cells.map(|cell| corners(cell).collect()));
             }
         }

@@ -94,8 +94,8 @@ fn shortest(
         let (starts, goals) = (places(&problem.starts), places(&problem.goals));
         let [from, to] =
             [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
-        let images = images(scene, &chart.surface, &to);
-        let Some(path) = taut_path(&chart.surface, &from, &to, measure, &images, &keep_going) else {
+        let images = images(scene, &chart.sewn.surface, &to);
+        let Some(path) = taut_path(&chart.sewn.surface, &from, &to, measure, &images, &keep_going) else {
             if !keep_going() {
                 return Err(PlanError::Stopped);
             }

@@ -1,7 +1,8 @@
-//! Whether the arm cannot be anywhere along a line: the opposite of a sweep.
+//! Whether the arm, or its tip, cannot be anywhere along a line: the opposite of a sweep.
 
 use super::clearance::{Axis, Body};
 use crate::arm::Configuration;
+use crate::geometry::Point;
 use crate::scene::Scene;
 
 /// Halvings after which a stretch of a line is given up.
@@ -44,6 +45,23 @@ impl<'a> Blocked<'a> {
     pub(super) fn all_along(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
         let mut witness = None;
         self.between(from, to, &mut witness, 0)
+    }
+
+    /// Whether the tip touches an obstacle at every place of the line from `from` to `to` (m).
+    pub(super) fn tip_all_along(&self, from: Point, to: Point, depth: u32) -> bool {
+        let middle = from.lerp(to, 0.5);
+        let half = 0.5 * from.distance(to);
+        let axis = Axis { start: [middle.x, middle.y], along: [1.0, 0.0], length: 0.0 };
+        let depths = self
+            .bodies
+            .iter()
+            .map(|(body, rounding)| body.depth(&axis, self.half_width + self.margin) - rounding);
+        let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
+        deepest > half
+            || (deepest > 0.0
+                && depth < DEEPEST
+                && self.tip_all_along(from, middle, depth + 1)
+                && self.tip_all_along(middle, to, depth + 1))
     }
 
     fn between(
@@ -96,6 +114,6 @@ impl<'a> Blocked<'a> {
     /// How far every point of a link may move (m) with the link still touching; 0 or less where it does not touch.
     fn depth(&self, axes: &[Axis; 2], link: usize, body: usize) -> f64 {
         let (body, rounding) = &self.bodies[body];
-        body.depth(&axes[link]) + self.half_width + self.margin - rounding
+        body.depth(&axes[link], self.half_width + self.margin) - rounding
     }
 }

@@ -3,13 +3,16 @@ use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 
 use super::blocked::Blocked;
-use crate::arm::{Configuration, JointLimits};
+use crate::arm::{Configuration, JointLimits, TwoLinkArm};
 use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
 const ANGLE_ROUNDING: f64 = 1e-9;
+
+/// Rounding that a place of the tip may have gone through, as a share of the greatest coordinate.
+const TIP_ROUNDING: f64 = 1e-12;
 
 /// Share of a bound that is given away for the rounding of sums.
 const SUM_ROUNDING: f64 = 1e-9;
@@ -53,6 +56,14 @@ pub enum BoundError {
         /// Where it begins (rad).
         from: [f64; 2],
         /// Where it ends (rad).
+        to: [f64; 2],
+    },
+    /// A wall stands where the tip may be able to pass.
+    #[error("the wall from {from:?} to {to:?} m is not proved to be blocked")]
+    TipWall {
+        /// Where it begins (m).
+        from: [f64; 2],
+        /// Where it ends (m).
         to: [f64; 2],
     },
     /// A start or goal is not where it is said to be.
@@ -114,6 +125,91 @@ pub fn bound_over_joints(
     let path =
         taut_path(surface, &starts, &goals, measure, &images, keep_going).ok_or(BoundError::Stopped)?;
     Ok(Reachability::AtLeast { cost: path.cost * (1.0 - SUM_ROUNDING), path })
+}
+
+/// The claim that a surface over the world's plane (m) leaves open every place that the tip can be at.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenTips<'a> {
+    /// The cells and their walls.
+    pub surface: &'a Surface,
+    /// Where each start is.
+    pub starts: &'a [(Configuration<2>, SurfacePlace)],
+    /// Where each goal is.
+    pub goals: &'a [(Configuration<2>, SurfacePlace)],
+    /// Clearance that is asked for (m): what comes nearer counts as blocked.
+    pub margin: f64,
+}
+
+/// A lower bound of the tip travel (m) of every motion from any of the starts to any of the goals: every wall is shown
+/// to lie in an obstacle, out of reach, or nearer to the base than the second joint lets the tip come.
+///
+/// # Errors
+/// [`BoundError`]
+pub fn bound_over_tips(
+    scene: &Scene,
+    claim: &OpenTips<'_>,
+    keep_going: &dyn Fn() -> bool,
+) -> Result<Reachability, BoundError> {
+    let arm = &scene.arm;
+    let (surface, [_, reach]) = (claim.surface, arm.reach());
+    let size = arm.base().x.abs() + arm.base().y.abs() + reach;
+    for (q, place) in claim.starts.iter().chain(claim.goals) {
+        let near = place.point.distance(arm.tip(q)) <= TIP_ROUNDING * size;
+        if !(near && place.cell < surface.len() && surface.holds(place.cell, place.point)) {
+            return Err(BoundError::Place { q: q.0 });
+        }
+    }
+    let blocked = Blocked::new(scene, claim.margin);
+    let hole = innermost_reach(arm) - TIP_ROUNDING * size;
+    let in_hole = |p: Point| p.distance(arm.base()) <= hole;
+    let out_of_reach = |a: Point, b: Point| {
+        let beyond = |a: f64, b: f64| (a >= reach && b >= reach) || (a <= -reach && b <= -reach);
+        let (a, b) = (a - arm.base(), b - arm.base());
+        beyond(a.x, b.x) || beyond(a.y, b.y)
+    };
+    for cell in 0..surface.len() {
+        if !keep_going() {
+            return Err(BoundError::Stopped);
+        }
+        let sides = surface.sides(cell);
+        for (i, side) in sides.iter().enumerate().filter(|(_, side)| side.across.is_none()) {
+            let (from, to) = (side.from, sides[(i + 1) % sides.len()].from);
+            // A disc holds the line between two of its places.
+            let stands = out_of_reach(from, to)
+                || (in_hole(from) && in_hole(to))
+                || blocked.tip_all_along(from, to, 0);
+            if !stands {
+                return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
+            }
+        }
+    }
+    let places =
+        |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
+    let (starts, goals) = (places(claim.starts), places(claim.goals));
+    let images: Vec<Point> = goals.iter().map(|goal| goal.point).collect();
+    match taut_path(surface, &starts, &goals, Measure::Euclidean, &images, keep_going) {
+        Some(path) => {
+            // Places are as near to the tips as rounding lets them be.
+            let cost = path.cost * (1.0 - SUM_ROUNDING) - 2.0 * TIP_ROUNDING * size;
+            Ok(Reachability::AtLeast { cost: cost.max(0.0), path })
+        }
+        None if keep_going() => Ok(Reachability::Parted),
+        None => Err(BoundError::Stopped),
+    }
+}
+
+/// How near to the base the tip can come (m), by the links and where the second joint may be.
+pub(crate) fn innermost_reach(arm: &TwoLinkArm) -> f64 {
+    let ([l1, l2], [nearest, _]) = (arm.lengths(), arm.reach());
+    match arm.joints()[1].limits {
+        JointLimits::Continuous => nearest,
+        JointLimits::Range { min, max } => {
+            // Folded where the angle is an odd number of half turns.
+            let folds = ((min - PI) / TAU).ceil() * TAU + PI <= max;
+            let cos = libm::cos(min).min(libm::cos(max));
+            if folds { nearest } else { (l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cos).max(0.0).sqrt() }
+        }
+    }
 }
 
 /// Whether `place` holds `q`, whole turns of continuous joints aside.

@@ -76,16 +76,17 @@ impl<'a> Body<'a> {
         self.distance_while_turning(axis, 0.0)
     }
 
-    /// How far every point of the link may move (m) with the link still meeting the obstacle; minus the distance where
-    /// it does not meet it.
-    pub(super) fn depth(&self, axis: &Axis) -> f64 {
+    /// How far every point of a link of half `width` (m) may move with the link still meeting the obstacle; not above 0
+    /// where it does not meet it.
+    pub(super) fn depth(&self, axis: &Axis, width: f64) -> f64 {
         let hull = self.distance_of_hull(axis, 0.0);
         match self.outline {
-            Outline::Disc => -hull,
-            Outline::Polygon(_) if hull > 0.0 => -hull,
+            Outline::Disc => width - hull,
+            // The obstacle is at least as far away as the disc around it.
+            Outline::Polygon(_) if hull > width => width - hull,
             Outline::Polygon(vertices) => {
                 let distance = polygon_distance(axis, 0.0, vertices);
-                if distance > 0.0 { -distance } else { polygon_depth(axis, vertices) }
+                if distance > 0.0 { width - distance } else { width + polygon_depth(axis, vertices) }
             }
         }
     }

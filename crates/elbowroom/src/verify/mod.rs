@@ -20,8 +20,8 @@ mod verdict;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
-pub(crate) use bound::images;
-pub use bound::{BoundError, OpenJoints, Reachability, bound_over_joints};
+pub use bound::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
+pub(crate) use bound::{images, innermost_reach};
 pub use continuity::JUMP_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
 pub use trajectory::Trajectory;

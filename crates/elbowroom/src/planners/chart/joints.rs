@@ -1,23 +1,19 @@
 use std::f64::consts::{PI, TAU};
 
-use super::sew::{Opening, Sewn, Stretch, sew};
-use super::slabs::{Cutter, Slab, Walls};
+use super::sew::{Sewn, Stretch, sew};
+use super::slabs::{Cutter, Walls};
 use crate::arm::{Configuration, JointLimits};
 use crate::free_space::Slices;
 use crate::geometry::{Point, wrap_angle};
 use crate::scene::Scene;
-use crate::surface::{Surface, SurfacePlace};
+use crate::surface::SurfacePlace;
 
-/// How far beyond a cell a place counts as in it (rad): rounding.
-const ROUNDING: f64 = 1e-12;
+/// How wide the slabs are that are begun with (rad).
+const WIDEST: f64 = 0.06;
 
 /// The plane of both joints, x the first and y the second (rad), as a surface of what is open.
 pub(crate) struct JointChart {
-    pub(crate) surface: Surface,
-    slabs: Vec<Slab>,
-    openings: Vec<Vec<Opening>>,
-    /// The first cell of each slab.
-    first_cells: Vec<usize>,
+    pub(crate) sewn: Sewn,
     rounds: [bool; 2],
 }
 
@@ -62,7 +58,8 @@ impl JointChart {
         keep_going: &dyn Fn() -> bool,
     ) -> Option<Self> {
         let slices = Slices::new(scene, margin);
-        let cutter = Cutter { slices: &slices, walls, range };
+        let forbidden = |x: f64| slices.second_joint(x, range);
+        let cutter = Cutter { forbidden: &forbidden, walls, range, widest: WIDEST };
         let rounds = [
             scene.arm.joints()[0].limits == JointLimits::Continuous,
             scene.arm.joints()[1].limits == JointLimits::Continuous && range == [-PI, PI],
@@ -74,15 +71,7 @@ impl JointChart {
             }
             stretches.push(Stretch { slabs: cutter.slabs(ends[0], ends[1]), round });
         }
-        let Sewn { openings, surface } = sew(&stretches, range, rounds[1]).ok()?;
-        let mut first_cells = Vec::with_capacity(openings.len());
-        let mut count = 0;
-        for opening in &openings {
-            first_cells.push(count);
-            count += opening.len();
-        }
-        let slabs = stretches.into_iter().flat_map(|stretch| stretch.slabs).collect();
-        Some(Self { surface, slabs, openings, first_cells, rounds })
+        Some(Self { sewn: sew(stretches, range, rounds[1]).ok()?, rounds })
     }
 
     /// Where `q` is on the surface, if it is in the open.
@@ -90,25 +79,8 @@ impl JointChart {
         let y = if self.rounds[1] { wrap_angle(q.0[1]) } else { q.0[1] };
         let turns = if self.rounds[0] { -1..=1 } else { 0..=0 };
         let first = if self.rounds[0] { wrap_angle(q.0[0]) } else { q.0[0] };
-        for x in turns.map(|turn| first + TAU * f64::from(turn)) {
-            // Slabs lie in order; a place between two of them is in either.
-            let after = self.slabs.partition_point(|slab| slab.x[0] <= x);
-            for slab in [after.checked_sub(1), after.checked_sub(2)].into_iter().flatten() {
-                let [x0, x1] = self.slabs[slab].x;
-                let share = (x - x0) / (x1 - x0);
-                if !(-ROUNDING..=1.0 + ROUNDING).contains(&share) {
-                    continue;
-                }
-                let holds = |open: &Opening| {
-                    let at = |i: usize| open.left[i] + (open.right[i] - open.left[i]) * share;
-                    (at(0) - ROUNDING..=at(1) + ROUNDING).contains(&y)
-                };
-                if let Some(i) = self.openings[slab].iter().position(holds) {
-                    return Some(SurfacePlace { cell: self.first_cells[slab] + i, point: Point::new(x, y) });
-                }
-            }
-        }
-        None
+        let mut turned = turns.map(|turn| Point::new(first + TAU * f64::from(turn), y));
+        turned.find_map(|point| self.sewn.place(point))
     }
 }
 

@@ -1,5 +1,5 @@
-//! The plane of both joints, cut into convex cells: what obstacles and stops leave of it, a little more or a little
-//! less, as a surface.
+//! The plane of both joints, or of the tip, cut into convex cells: what obstacles and stops leave of it, a little more or
+//! a little less, as a surface.
 //!
 //! Slices of the obstacles are exact, and between two slices their edges are nearly straight: few trapezoids are as
 //! good as a very fine grid. Why a surface and not a grid: the shortest path on it is exact, so that its length is a
@@ -8,6 +8,8 @@
 mod joints;
 mod sew;
 mod slabs;
+mod tips;
 
 pub(crate) use joints::{JointChart, sheet_ranges};
 pub(crate) use slabs::Walls;
+pub(crate) use tips::tip_chart;

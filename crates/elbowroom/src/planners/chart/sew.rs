@@ -2,9 +2,9 @@ use std::f64::consts::TAU;
 
 use super::slabs::Slab;
 use crate::geometry::{Point, Vector};
-use crate::surface::{Across, Crossing, Side, Surface, SurfaceError};
+use crate::surface::{Across, Crossing, Side, Surface, SurfaceError, SurfacePlace};
 
-/// Stretches shorter than this (rad) are left out: rounding.
+/// Stretches shorter than this are left out, and places no farther outside a cell are in it: rounding.
 const SHORTEST: f64 = 1e-12;
 
 /// An open trapezoid of a slab.
@@ -22,10 +22,32 @@ pub(super) struct Stretch {
     pub(super) round: bool,
 }
 
-/// The openings of each slab, and the surface whose cells they are, in order.
-pub(super) struct Sewn {
-    pub(super) openings: Vec<Vec<Opening>>,
-    pub(super) surface: Surface,
+/// The openings of slabs as the cells of a surface.
+pub(crate) struct Sewn {
+    pub(crate) surface: Surface,
+    slabs: Vec<Slab>,
+    openings: Vec<Vec<Opening>>,
+    /// The first cell of each slab.
+    first_cells: Vec<usize>,
+}
+
+impl Sewn {
+    /// Where `point` is on the surface, if it is in the open.
+    pub(crate) fn place(&self, point: Point) -> Option<SurfacePlace> {
+        // Slabs lie in order; a place between two of them is in either.
+        let after = self.slabs.partition_point(|slab| slab.x[0] <= point.x);
+        [after.checked_sub(1), after.checked_sub(2)].into_iter().flatten().find_map(|slab| {
+            let [x0, x1] = self.slabs[slab].x;
+            let share = (point.x - x0) / (x1 - x0);
+            let holds = |open: &Opening| {
+                let at = |i: usize| open.left[i] + (open.right[i] - open.left[i]) * share;
+                (at(0) - SHORTEST..=at(1) + SHORTEST).contains(&point.y)
+            };
+            let inside = (-SHORTEST..=1.0 + SHORTEST).contains(&share);
+            let i = self.openings[slab].iter().position(|open| inside && holds(open))?;
+            Some(SurfacePlace { cell: self.first_cells[slab] + i, point })
+        })
+    }
 }
 
 /// Where one cell is open to another across a slab's end.
@@ -38,7 +60,7 @@ struct Gate {
 
 /// Cells of what is open in `stretches`, sewn together along the slabs' ends and, where the second joint goes `round`,
 /// along the ends of its `range`.
-pub(super) fn sew(stretches: &[Stretch], range: [f64; 2], round: bool) -> Result<Sewn, SurfaceError> {
+pub(super) fn sew(stretches: Vec<Stretch>, range: [f64; 2], round: bool) -> Result<Sewn, SurfaceError> {
     let slabs: Vec<&Slab> = stretches.iter().flat_map(|stretch| &stretch.slabs).collect();
     let openings: Vec<Vec<Opening>> = slabs.iter().map(|slab| openings(slab, range)).collect();
     let mut first_cells = vec![0];
@@ -50,7 +72,7 @@ pub(super) fn sew(stretches: &[Stretch], range: [f64; 2], round: bool) -> Result
 
     // Gates at each slab's beginning, to the slab before it.
     let mut before: Vec<Option<(usize, f64)>> = Vec::with_capacity(slabs.len());
-    for stretch in stretches {
+    for stretch in &stretches {
         let first = before.len();
         for i in 0..stretch.slabs.len() {
             before.push(match i {
@@ -135,7 +157,10 @@ pub(super) fn sew(stretches: &[Stretch], range: [f64; 2], round: bool) -> Result
             cells[end - 1][top].across = to(first, bottom, -TAU);
         }
     }
-    Ok(Sewn { openings, surface: Surface::new(&cells)? })
+    let surface = Surface::new(&cells)?;
+    first_cells.pop();
+    let slabs = stretches.into_iter().flat_map(|stretch| stretch.slabs).collect();
+    Ok(Sewn { surface, slabs, openings, first_cells })
 }
 
 /// What the barriers of a slab leave open.
@@ -195,7 +220,7 @@ mod tests {
 
     use super::super::slabs::Barrier;
     use super::*;
-    use crate::surface::{Measure, SurfacePlace, taut_path};
+    use crate::surface::{Measure, taut_path};
 
     fn unit(rng: &mut ChaCha8Rng) -> f64 {
         (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
@@ -298,7 +323,7 @@ mod tests {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let slabs = random_slabs(&mut rng);
             let width = slabs[slabs.len() - 1].x[1];
-            let sewn = sew(&[Stretch { slabs, round: false }], [0.0, 4.0], false).unwrap();
+            let sewn = sew(vec![Stretch { slabs, round: false }], [0.0, 4.0], false).unwrap();
             let mut place = || loop {
                 let point = Point::new(width * unit(&mut rng), 4.0 * unit(&mut rng));
                 if let Some(cell) = (0..sewn.surface.len()).find(|&cell| sewn.surface.holds(cell, point)) {

@@ -1,13 +1,13 @@
-use crate::free_space::{Slices, merged};
+use crate::free_space::merged;
 
 /// Most of the distance between a wall and the obstacle that may be lost or gained between two slices, as a share.
 const SLACK: f64 = 0.5;
 
-/// Width of the slabs that are begun with (rad).
-const WIDEST: f64 = 0.06;
-
 /// Width below which slabs are not cut any more, in distances between wall and obstacle.
 const NARROWEST: f64 = 0.1;
+
+/// Width of the thinnest obstacle that walls stand inside of, in distances between wall and obstacle.
+const THINNEST: f64 = 1e-4;
 
 /// How walls stand to the obstacles they stand for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,35 +15,38 @@ pub(crate) struct Walls {
     /// Whether they stand inside the obstacles, so that all that is free is open, or before them, so that all
     /// that is open is free.
     pub(crate) inside: bool,
-    /// How far (rad); nearer to what is thin.
+    /// How far, in the unit of the plane; nearer to what is thin.
     pub(crate) distance: f64,
 }
 
-/// A stretch of the first joint between two slices.
+/// A stretch of the first coordinate between two slices.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slab {
-    /// From and to (rad).
+    /// From and to.
     pub(crate) x: [f64; 2],
     /// What is closed, in order.
     pub(crate) barriers: Vec<Barrier>,
 }
 
-/// A closed trapezoid of a slab: intervals of the second joint at both ends (rad); either may be a point.
+/// A closed trapezoid of a slab: intervals of the second coordinate at both ends; either may be a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Barrier {
     pub(crate) left: [f64; 2],
     pub(crate) right: [f64; 2],
 }
 
-/// Cuts one stretch of the first joint into slabs.
+/// Cuts one stretch of the first coordinate into slabs.
 pub(crate) struct Cutter<'a> {
-    pub(crate) slices: &'a Slices<'a>,
+    /// What is forbidden of the second coordinate at a place of the first: intervals in order, apart.
+    pub(crate) forbidden: &'a dyn Fn(f64) -> Vec<[f64; 2]>,
     pub(crate) walls: Walls,
-    /// Where the second joint may be (rad).
+    /// Where the second coordinate may be.
     pub(crate) range: [f64; 2],
+    /// How wide the slabs are that are begun with.
+    pub(crate) widest: f64,
 }
 
-/// A place of the first joint with what is closed there.
+/// A place of the first coordinate with what is closed there.
 #[derive(Clone)]
 struct Slice {
     x: f64,
@@ -51,9 +54,9 @@ struct Slice {
 }
 
 impl Cutter<'_> {
-    /// Slabs from `from` to `to` (rad), each as wide as its walls stay near enough to the obstacles.
+    /// Slabs from `from` to `to`, each as wide as its walls stay near enough to the obstacles.
     pub(crate) fn slabs(&self, from: f64, to: f64) -> Vec<Slab> {
-        let count = ((to - from) / WIDEST).ceil().max(1.0);
+        let count = ((to - from) / self.widest).ceil().max(1.0);
         let mut slabs = Vec::new();
         let mut left = self.slice(from);
         for i in 1..=count as usize {
@@ -69,7 +72,11 @@ impl Cutter<'_> {
         let [low, high] = self.range;
         let Walls { inside, distance } = self.walls;
         let mut closed: Vec<[f64; 2]> = Vec::new();
-        for [from, to] in self.slices.second_joint(x, self.range) {
+        for [from, to] in (self.forbidden)(x) {
+            // Where an obstacle is only grazed a wall inside it would stand on rounding.
+            if inside && to - from < THINNEST * distance {
+                continue;
+            }
             let shift = if inside { distance.min((to - from) / 4.0) } else { -distance };
             // At the end of the range, where it goes on or the stop is, there is no wall to be moved.
             let from = if from <= low { low } else { (from + shift).max(low) };

@@ -1,0 +1,81 @@
+use super::sew::{Sewn, Stretch, sew};
+use super::slabs::{Cutter, Walls};
+use crate::free_space::merged;
+use crate::geometry::{Point, Segment, Vector};
+use crate::scene::{Scene, Shape};
+use crate::verify::innermost_reach;
+
+/// How wide the slabs are that are begun with, as a share of the reach.
+const WIDEST: f64 = 0.03;
+
+/// Where the tip may be in whatever posture, as a surface over the world's plane (m): the square around the reach
+/// without the obstacles and without the disc that the second joint keeps the tip out of. More than all that can be
+/// reached, for it does not heed what the links touch.
+pub(crate) fn tip_chart(scene: &Scene, walls: Walls, keep_going: &dyn Fn() -> bool) -> Option<Sewn> {
+    let arm = &scene.arm;
+    let (base, [_, reach]) = (arm.base(), arm.reach());
+    let range = [base.y - reach, base.y + reach];
+    let hole = innermost_reach(arm);
+    let forbidden = |x: f64| {
+        let mut found = Vec::new();
+        found.extend(chord(base, hole, x));
+        for obstacle in &scene.obstacles {
+            match &obstacle.shape {
+                Shape::Circle(circle) => {
+                    found.extend(chord(circle.center, circle.radius + arm.half_width(), x))
+                }
+                Shape::Polygon(polygon) => of_polygon(polygon.vertices(), arm.half_width(), x, &mut found),
+            }
+        }
+        found.retain_mut(|[from, to]| {
+            (*from, *to) = (from.max(range[0]), to.min(range[1]));
+            from < to
+        });
+        merged(found)
+    };
+    let walls = Walls { distance: walls.distance * reach, ..walls };
+    let cutter = Cutter { forbidden: &forbidden, walls, range, widest: WIDEST * reach };
+    if !keep_going() {
+        return None;
+    }
+    let slabs = cutter.slabs(base.x - reach, base.x + reach);
+    sew(vec![Stretch { slabs, round: false }], range, false).ok()
+}
+
+/// Where the line at `x` runs through a disc.
+fn chord(center: Point, radius: f64, x: f64) -> Option<[f64; 2]> {
+    let squared = radius * radius - (x - center.x) * (x - center.x);
+    (squared > 0.0).then(|| [center.y - squared.sqrt(), center.y + squared.sqrt()])
+}
+
+/// Where the line at `x` runs within `width` of a polygon.
+fn of_polygon(vertices: &[Point], width: f64, x: f64, found: &mut Vec<[f64; 2]>) {
+    let mut inside: Vec<f64> = Vec::new();
+    let mut a = vertices[vertices.len() - 1];
+    for &b in vertices {
+        inside.extend(crossing(Segment::new(a, b), x));
+        if width > 0.0 {
+            found.extend(chord(b, width, x));
+            let along = b - a;
+            let aside = Vector::new(-along.y, along.x) * (width / along.length());
+            let corners = [a + aside, b + aside, b + -aside, a + -aside];
+            let at: Vec<f64> =
+                (0..4).filter_map(|i| crossing(Segment::new(corners[i], corners[(i + 1) % 4]), x)).collect();
+            if let ([first, ..], true) = (at.as_slice(), at.len() > 1) {
+                found.push([
+                    at.iter().copied().fold(*first, f64::min),
+                    at.iter().copied().fold(*first, f64::max),
+                ]);
+            }
+        }
+        a = b;
+    }
+    inside.sort_by(f64::total_cmp);
+    found.extend(inside.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+}
+
+/// Where the line at `x` crosses an edge; one of its ends belongs to it.
+fn crossing(edge: Segment, x: f64) -> Option<f64> {
+    let Segment { a, b } = edge;
+    ((a.x > x) != (b.x > x)).then(|| a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x)))
+}
