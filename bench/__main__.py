@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from typing import Any
 
-from bench import machine, plots, table
+from bench import machine, ompl_peers, plots, table
 from bench.clock import MEASURE, OUT, ROOT
 from bench.entries import Comparison, Entry, Goal, Section, Table
 from bench.work import field, free_space, paths, plan, repair, sizes, swarm, timing
@@ -50,7 +50,7 @@ def about() -> dict[str, str]:
     return {
         "machine": machine.machine() + ("" if load is None else f"; load {load:.1f} when it began"),
         "versions": ", ".join(
-            f"{name} {number}" for name, number in (machine.versions() | paths.ompl_versions()).items()
+            f"{name} {number}" for name, number in (machine.versions() | ompl_peers.ompl_versions()).items()
         ),
     }
 

@@ -21,11 +21,12 @@ Edges = list[tuple[float, float, float, float]]
 
 
 class Problem:
-    """What the lines of standard input say; see ``bench.work.paths.problem``."""
+    """What the lines of standard input say; see ``bench.ompl_peers.problem``."""
 
     def __init__(self, text: str) -> None:
         self.circles: list[tuple[float, float, float]] = []
         self.polygons: list[tuple[float, float, float, Edges]] = []
+        self.bounds: Corners = []
         self.ends: dict[str, Corners] = {"start": [], "goal": []}
         for line in text.splitlines():
             what, *words = line.split()
@@ -34,7 +35,7 @@ class Problem:
                 case "links":
                     self.links = numbers
                 case "joint1" | "joint2":
-                    setattr(self, what, numbers)
+                    self.bounds.append((numbers[0], numbers[1]))
                 case "circle":
                     self.circles.append((numbers[0], numbers[1], numbers[2] ** 2))
                 case "polygon":
@@ -85,7 +86,7 @@ def solve(planner: str, step: float, seconds: float, target: float, problem: Pro
     """Return how long it took (s) and the corners of the path."""
     space = ob.RealVectorStateSpace(2)
     bounds = ob.RealVectorBounds(2)
-    for joint, (low, high) in enumerate((problem.joint1, problem.joint2)):
+    for joint, (low, high) in enumerate(problem.bounds):
         bounds.setLow(joint, low)
         bounds.setHigh(joint, high)
     space.setBounds(bounds)

@@ -87,7 +87,7 @@ def paths(points: Sequence[Mapping[str, Any]]) -> Figure:
             else:
                 axes.scatter(latest, y, s=22, marker="x", color=WORSE, zorder=2)
     axes.set(xscale="log", yticks=range(len(planners)), yticklabels=planners, ylim=(len(planners) - 0.5, -0.5))
-    axes.set_xlabel("time to a safe path within 1 % of the best known (ms); area: share of the runs; x: none of them")
+    axes.set_xlabel("time to a safe path within 1 % (ms); a dot a task, its area the share of runs; x: none")
     axes.grid(axis="x", linewidth=0.3)
     return figure
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
 from bench.entries import Comparison, Entry, Goal, Section, Table
@@ -43,7 +44,7 @@ def section_lines(section: Section) -> Iterator[str]:
     """Yield a section."""
     yield f"## {section.title} (`{section.key}`)"
     yield ""
-    yield section.words
+    yield from textwrap.wrap(section.words, 120, break_long_words=False, break_on_hyphens=False)
     for picture in section.plots:
         yield ""
         yield f"![{section.title}](images/benchmarks_{picture}.png)"
@@ -84,4 +85,4 @@ def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[s
     yield f"| {' | '.join(header)} |"
     yield f"|{'---|' * len(header)}"
     for cells in rows:
-        yield f"| {' | '.join(cells)} |"
+        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"

@@ -60,7 +60,7 @@ def main() -> None:
             print(ms)
         case ["repair", file]:
             given = np.load(file)
-            goal, start = (tuple(map(int, given[end])) for end in ("goal", "start"))
+            goal, start = ((int(given[end][0]), int(given[end][1])) for end in ("goal", "start"))
             found = []
             for after in given["after"]:
                 before = given["before"]

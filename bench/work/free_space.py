@@ -17,6 +17,7 @@ from bench.clock import OUT, ROOT, core, median_ms
 from bench.entries import Comparison, Entry, Goal, Section, attempt
 
 Floats = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
 SCENE = "narrow"
@@ -40,9 +41,9 @@ def core_map(file: Path, points: int, runs: int, threads: int | None) -> tuple[f
     return statistics.median(times), np.fromfile(out, dtype=np.bool_).reshape(2, points, points)
 
 
-def chunks(scene: er.Scene, chunk: int) -> Iterator[tuple[slice, NDArray[np.int64], Floats, Floats, Floats]]:
+def chunks(scene: er.Scene, chunk: int) -> Iterator[tuple[slice, NDArray[np.intp], Complex, Complex]]:
     """Yield rows of the grid, the places among their points within reach and joint limits, tips there, and the elbows
-    of both postures, elbow-up first, shape ``(2, n)`` for x and y each, as complex numbers.
+    of both postures, elbow-up first, shape ``(2, n)``; places are complex numbers.
     """
     low, high = scene.grid.x
     count = round((high - low) / scene.grid.step) + 1
@@ -84,7 +85,7 @@ def numpy_map(scene: er.Scene) -> Mask:
     return free
 
 
-def touched(obstacle: er.Circle | er.Polygon, begin: Floats | complex, along: Floats, length: float) -> Mask:
+def touched(obstacle: er.Circle | er.Polygon, begin: Complex | complex, along: Complex, length: float) -> Mask:
     """Return which links, from ``begin`` along ``along``, touch the obstacle."""
     if isinstance(obstacle, er.Circle):
         return near(complex(*obstacle.center), obstacle.radius, begin, along, length)
@@ -105,7 +106,7 @@ def touched(obstacle: er.Circle | er.Polygon, begin: Floats | complex, along: Fl
     return hit
 
 
-def near(center: complex, radius: float, begin: Floats | complex, along: Floats, length: float) -> Mask:
+def near(center: complex, radius: float, begin: Complex | complex, along: Complex, length: float) -> Mask:
     """Return which links come within ``radius`` of ``center``."""
     to = center - begin
     t = np.clip((to.real * along.real + to.imag * along.imag) / length**2, 0.0, 1.0)
@@ -113,7 +114,7 @@ def near(center: complex, radius: float, begin: Floats | complex, along: Floats,
     return np.asarray(x * x + y * y <= radius**2)
 
 
-def cross(a: Floats, b: Floats) -> Floats:
+def cross(a: Complex, b: Complex) -> Floats:
     """Return the cross products of plane vectors."""
     return a.real * b.imag - a.imag * b.real
 

@@ -2,40 +2,25 @@
 
 from __future__ import annotations
 
-import importlib.util
-import json
 import math
-import shutil
 import statistics
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 import elbowroom as er
-from bench.clock import OUT, ROOT, TooLong, run
+from bench.clock import TooLong
 from bench.entries import Goal, Section, Table
 from bench.objectives import BEST_KNOWN, Case, cases
+from bench.ompl_peers import LIMIT, PYTHON_LIMIT, PYTHON_SEEDS, SEEDS, Peer, peers, problem
+from bench.work.plan import profile
 
 Floats = NDArray[np.float64]
 
 WITHIN = 1.01
-STEP = math.radians(0.5)
-"""Distance between the states that OMPL checks, where it does not check the whole motion (rad)."""
-
-SEEDS = 10
-PYTHON_SEEDS = 5
-LIMIT = 1.0
-"""How long OMPL may take in C++ for one path (s)."""
-
-PYTHON_LIMIT = 2.0
-TURN = math.tau
 
 
 def best_cases() -> Iterator[tuple[Case, str, float]]:
@@ -45,45 +30,6 @@ def best_cases() -> Iterator[tuple[Case, str, float]]:
             best = BEST_KNOWN.get((case.name, task, case.kind))
             if best is not None:
                 yield case, task, best
-
-
-def configurations(scene: er.Scene, tip: tuple[float, float]) -> list[tuple[float, float]]:
-    """Return the free configurations that put the tip there, joint 1 from 0 to a turn."""
-    first, second = scene.arm.links
-    distance = math.hypot(*tip)
-    bend = math.acos((distance**2 - first**2 - second**2) / (2 * first * second))
-    found = []
-    for q2 in (bend, -bend):
-        q1 = math.atan2(tip[1], tip[0]) - math.atan2(second * math.sin(q2), first + second * math.cos(q2))
-        q = (q1 % TURN, q2)
-        if scene.core.link_clearances(np.array([q])).min() > 0.0:
-            found.append(q)
-    return found
-
-
-def problem(case: Case, task: str) -> str:
-    """Return the task as lines of text: either posture at both ends.
-
-    A continuous joint 1 is unrolled over three turns, with a copy of each goal in each: on OMPL's circle lengths
-    would be sums over the joints, not those of the plane.
-    """
-    scene = case.scene
-    asked = scene.tasks[task]
-    turns = (-TURN, 0.0, TURN) if scene.arm.joints[0].continuous else (0.0,)
-    starts, goals = (configurations(scene, end) for end in (asked.start, asked.goal))  # type: ignore[arg-type]
-    lines: list[tuple[object, ...]] = [
-        ("links", *scene.arm.links),
-        ("joint1", turns[0], turns[-1] + TURN),
-        ("joint2", scene.arm.joints[1].min, scene.arm.joints[1].max),
-        *(("start", *q) for q in starts),
-        *(("goal", q[0] + turn, q[1]) for q in goals for turn in turns),
-    ]
-    for shape in scene.obstacles:
-        if isinstance(shape, er.Circle):
-            lines.append(("circle", *shape.center, shape.radius))
-        else:
-            lines.append(("polygon", *(value for corner in shape.vertices for value in corner)))
-    return "\n".join(" ".join(map(str, line)) for line in lines)
 
 
 @dataclass
@@ -96,7 +42,7 @@ class Runs:
     lengths: list[float] = field(default_factory=list)
     """Lengths of the safe paths, as shares of the best known."""
     unsafe: int = 0
-    overrun: int = 0
+    stopped: int = 0
 
     def add(self, scene: er.Scene, seconds: float, path: Floats, best: float) -> None:
         """Take in the corners of a path; our verifier judges the straight turns between them."""
@@ -119,80 +65,23 @@ class Runs:
         if len(self.ms) < self.tried and self.lengths:
             said += f", {(statistics.median(self.lengths) - 1) * 100:+.0f} %"
         said += f", {self.unsafe} unsafe" if self.unsafe else ""
-        return said + (f", {self.overrun} stopped" if self.overrun else "")
+        return said + (f", {self.stopped} stopped" if self.stopped else "")
 
 
-@dataclass(frozen=True)
-class Peer:
-    """A planner of OMPL, how it checks motions, and the program that runs it."""
-
-    who: str
-    command: Sequence[str | Path]
-    planner: str
-    check: str
-    seeds: int
-    limit: float
-
-    def runs(self, case: Case, task: str, best: float) -> Runs:
-        """Return what became of its seeds."""
-        given, found = problem(case, task), Runs()
-        for seed in range(1, self.seeds + 1):
-            settings = [self.planner, self.check, str(self.limit), str(seed), str(WITHIN * best)]
-            try:
-                answer = json.loads(run([*self.command, *settings], limit=3 * self.limit + 2.0, given=given))
-            except TooLong:
-                found.tried, found.overrun = found.tried + 1, found.overrun + 1
-                continue
-            found.add(case.scene, answer["seconds"], np.array(answer["path"]), best)
-        return found
+def theirs(peer: Peer, case: Case, task: str, best: float) -> Runs:
+    """Return what became of a peer's seeds."""
+    given, found = problem(case.scene, task), Runs()
+    for seed in range(1, peer.seeds + 1):
+        try:
+            seconds, path = peer.path(given, seed, WITHIN * best)
+        except (TooLong, RuntimeError):
+            found.tried, found.stopped = found.tried + 1, found.stopped + 1
+            continue
+        found.add(case.scene, seconds, path, best)
+    return found
 
 
-PLANNERS = {"RRTConnect": "RRTConnect, simplified", "InformedRRTstar": "InformedRRT*", "BITstar": "BIT*"}
-
-
-def peers() -> tuple[list[Peer], list[str]]:
-    """Return the peers that are there, and what is not, in words."""
-    found, missing = [], []
-    program, why = built()
-    if program is None:
-        missing.append(f"OMPL in C++: {why}")
-    else:
-        for planner, who in PLANNERS.items():
-            for check in ("whole", str(STEP)) if planner == "RRTConnect" else ("whole",):
-                name = f"{who} (C++, {'whole motions' if check == 'whole' else 'states 0.5° apart'})"
-                found.append(Peer(name, [program], planner, check, SEEDS, LIMIT))
-    if importlib.util.find_spec("ompl") is None:
-        missing.append("OMPL's Python package: not installed")
-    else:
-        command = [sys.executable, "-m", "bench.ompl_paths"]
-        for planner, who in PLANNERS.items():
-            found.append(Peer(f"{who} (Python)", command, planner, str(STEP), PYTHON_SEEDS, PYTHON_LIMIT))
-    return found, missing
-
-
-def built() -> tuple[Path | None, str]:
-    """Return the C++ program, built if OMPL's headers are there, or None and why."""
-    if shutil.which("cmake") is None:
-        return None, "not built, cmake is not installed"
-    folder = OUT / "ompl_cpp"
-    configure = ["cmake", "-S", ROOT / "bench" / "ompl_cpp", "-B", folder, "-DCMAKE_BUILD_TYPE=Release"]
-    for step, why in (
-        (configure, "not installed (Debian's libompl-dev)"),
-        (["cmake", "--build", folder], "does not build"),
-    ):
-        if subprocess.run(step, capture_output=True).returncode != 0:
-            return None, why
-    return folder / "ompl_paths", ""
-
-
-def ompl_versions() -> dict[str, str]:
-    """Return the versions of OMPL that are there."""
-    program, _ = built()
-    found = {} if program is None else {"OMPL in C++": run([program, "version"], limit=10.0).strip()}
-    return found | ({"ompl (Python)": version("ompl")} if importlib.util.find_spec("ompl") else {})
-
-
-def ours(case: Case, task: str, best: float) -> Runs:
+def ours(case: Case, task: str, best: float) -> tuple[Runs, er.Plan]:
     """Return what became of ``optimal``: whole plans, the verified motion's joint travel as the length."""
     found = Runs()
     for seed in range(SEEDS):
@@ -207,7 +96,7 @@ def ours(case: Case, task: str, best: float) -> Runs:
         found.lengths.append(plan.cost / best)
         if plan.cost <= WITHIN * best:
             found.ms.append(seconds * 1e3)
-    return found
+    return found, plan
 
 
 def measure(say: Callable[[str], None] = lambda _: None) -> Section:
@@ -217,18 +106,19 @@ def measure(say: Callable[[str], None] = lambda _: None) -> Section:
     rows: dict[str, list[str]] = {}
     points: list[dict[str, object]] = []
     own: list[Runs] = []
+    stages: list[tuple[str, ...]] = []
     for case, task, best in best_cases():
         name = f"{case.name}, {case.kind}, {task}"
         titles.append((case.name, f"{task}, joint 1 {case.kind}: {best:.4f} rad"))
-        own.append(ours(case, task, best))
-        runs = {"elbowroom optimal": own[-1]} | {peer.who: peer.runs(case, task, best) for peer in there}
+        judged, plan = ours(case, task, best)
+        own.append(judged)
+        stages.append((f"{case.name}, joint 1 {case.kind}, {task}", *profile(plan)))
+        runs = {"elbowroom optimal": own[-1]} | {peer.who: theirs(peer, case, task, best) for peer in there}
         say(f"{name}: elbowroom {own[-1].cell()}")
         for who, found in runs.items():
             rows.setdefault(who, []).append(found.cell())
-            points.append(
-                {"who": who, "case": name, "ms": statistics.median(found.ms) if found.ms else None}
-                | {"share": len(found.ms) / found.tried}
-            )
+            ms = statistics.median(found.ms) if found.ms else None
+            points.append({"who": who, "case": name, "ms": ms, "share": len(found.ms) / found.tried})
     every = all(len(runs.ms) == runs.tried for runs in own)
     slowest = max(statistics.median(runs.ms) if runs.ms else math.inf for runs in own)
     goal = Goal(
@@ -244,9 +134,9 @@ plan, from scene to verified trajectory, and the length that of its motion. OMPL
 planners get both postures at both ends, three turns of a continuous joint with a copy of each goal, and stop as
 soon as their path is short enough. RRTConnect is begun again until then, every path simplified. Nobody knows the
 best length beforehand; that OMPL is told when to stop is in its favour. Time limit {LIMIT:g} s in C++ ({SEEDS}
-seeds), {PYTHON_LIMIT:g} s in Python ({PYTHON_SEEDS} seeds), where the checker is plain Python; a run that goes far
-over its limit is stopped. The C++ checker is exact and allocates nothing; with `whole motions` it also proves the
-way between states, by bisection with the clearance. { " ".join(f"**{what}.**" for what in missing) }
+seeds), {PYTHON_LIMIT:g} s in Python ({PYTHON_SEEDS} seeds), where the checker is plain Python; a run that fails or
+goes far over its limit is counted as stopped. The C++ checker is exact and allocates nothing; with `whole motions`
+it also proves the way between states, by bisection with the clearance. {" ".join(f"**{what}.**" for what in missing)}
 """
     tables = [
         Table(
@@ -259,4 +149,5 @@ way between states, by bisection with the clearance. { " ".join(f"**{what}.**" f
         )
         for scene in dict.fromkeys(name for name, _ in titles)
     ]
+    tables.append(Table("Where the time of `optimal` goes", ["case", "ms", "stages"], stages))
     return Section("paths", "Paths within 1 % of the best known", words.strip(), (), tables, [goal], {"paths": points})

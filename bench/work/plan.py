@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import elbowroom as er
 from bench.clock import median_ms
 from bench.entries import Comparison, Entry, Goal, Section, Table
@@ -16,9 +18,9 @@ def measure() -> Section:
     scene = er.Scene.example(SCENE)
     comparisons, stages = [], []
     for task, seconds in PAPER.items():
-        ms, plan = median_ms(lambda task=task: er.plan(scene, task=task, planner="dstar-pso", seed=1), 9)  # type: ignore[misc]
-        alone_ms, alone = median_ms(lambda task=task: er.plan(scene, task=task, planner="dstar"), 9)  # type: ignore[misc]
-        printed_ms, printed = median_ms(lambda task=task: er.plan_as_in_paper(scene, task=task, seed=1), 9)  # type: ignore[misc]
+        ms, plan = median_ms(partial(er.plan, scene, task=task, planner="dstar-pso", seed=1), 9)
+        alone_ms, alone = median_ms(partial(er.plan, scene, task=task, planner="dstar"), 9)
+        printed_ms, printed = median_ms(partial(er.plan_as_in_paper, scene, task=task, seed=1), 9)
         comparisons.append(
             Comparison(
                 f"{SCENE}.yaml, task {task}",
@@ -34,9 +36,7 @@ def measure() -> Section:
                 ],
             )
         )
-        spent = sum(plan.timings.values())
-        row = [f"{name.replace('_', ' ')} {share / spent * 100:.0f} %" for name, share in plan.timings.items()]
-        stages.append([task, f"{spent * 1e3:.1f}", ", ".join(row)])
+        stages.append([task, *profile(plan)])
     worst = max(comparison.ours.ms or 0.0 for comparison in comparisons)
     goal = Goal(
         "whole `dstar-pso` at 1 cm, map to verified trajectory", "<= 10 ms-class", f"{worst:.1f} ms", worst <= 15.0
@@ -45,8 +45,15 @@ def measure() -> Section:
 Map, D*, swarm, the eight most promising paths made into motions, verifier: all of it, from Python, tip travel as
 the objective. The paper's times are quoted, not measured; they stand beside ours for scale.
 """
-    profile = Table("Where the time goes", ["task", "ms", "stages"], stages)
-    return Section("plan", "Whole plan at 1 cm", words.strip(), comparisons, [profile], [goal])
+    where = Table("Where the time goes", ["task", "ms", "stages"], stages)
+    return Section("plan", "Whole plan at 1 cm", words.strip(), comparisons, [where], [goal])
+
+
+def profile(plan: er.Plan) -> tuple[str, str]:
+    """Return how long the plan took (ms) and the share of each stage."""
+    spent = sum(plan.timings.values())
+    shares = (f"{name.replace('_', ' ')} {share / spent * 100:.0f} %" for name, share in plan.timings.items())
+    return f"{spent * 1e3:.1f}", ", ".join(shares)
 
 
 def answer(scene: er.Scene, plan: er.Plan) -> str:

@@ -6,6 +6,7 @@ import json
 import statistics
 import sys
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -40,8 +41,8 @@ def by_toolbox(points: int, after_costs: dict[int, float]) -> Entry:
     scene = with_points(er.Scene.load(ROOT / "scenes" / f"{SCENE}.yaml"), points)
     after = [er.free_space(moved(scene, obstacle)).union for obstacle in after_costs]
     given = OUT / "repair.npz"
-    ends = {end: cell_of(SCENE, points, end) for end in ("start", "goal")}
-    np.savez(given, before=er.free_space(scene).union, after=np.array(after), **ends)
+    start, goal = (cell_of(SCENE, points, end) for end in ("start", "goal"))
+    np.savez(given, before=er.free_space(scene).union, after=np.array(after), start=start, goal=goal)
     try:
         found = json.loads(run([sys.executable, "-m", "bench.toolbox", "repair", str(given)], limit=LIMIT))
     except TooLong:
@@ -74,12 +75,12 @@ def measure() -> Section:
             Entry("elbowroom D*, from scratch", scratch[0], scratch[1]),
         ]
         for by in (by_scipy, by_skimage):
-            entry = attempt(by.__name__[3:], lambda by=by, a=(free, goal, unchecked, runs): by(*a))
+            entry = attempt(by.__name__[3:], partial(by, free, goal, unchecked, runs))
             answer = entry.answer if entry.ms is None else "checked under Cost-to-go field"
             entries.append(Entry(f"{entry.who}, from scratch", entry.ms, answer))
         if points == 101:
             costs = {obstacle["obstacle"]: obstacle["cost"] for obstacle in obstacles}
-            entries.append(attempt("roboticstoolbox D*", lambda c=costs: by_toolbox(101, c)))
+            entries.append(attempt("roboticstoolbox D*", partial(by_toolbox, points, costs)))
         comparisons.append(Comparison(f"{points} x {points} points, {SCENE}.yaml", entries))
     goal_row = Goal(
         "D* repair after one obstacle moves by a cell, 1001 x 1001",

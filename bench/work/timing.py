@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import statistics
+from functools import partial
 from itertools import pairwise
 from typing import Any
 
@@ -72,7 +73,10 @@ def by_ruckig(scene: er.Scene, vias: Floats, limits: list[float]) -> Entry:
         return pieces
 
     ms, pieces = median_ms(timed, RUNS)
-    t, q, v, begin = [], [], [], 0.0
+    t: list[float] = []
+    q: list[list[float]] = []
+    v: list[list[float]] = []
+    begin = 0.0
     for piece in pieces:
         for at in np.linspace(0.0, piece.duration, 1 + int(np.ceil(piece.duration / PERIOD)))[bool(t) :]:
             position, speed, _ = piece.at_time(at)
@@ -110,8 +114,8 @@ def measure() -> Section:
                 [
                     Entry("elbowroom, timed and verified", statistics.median(ours["verified_ms"]), said),
                     Entry("elbowroom, timed only", statistics.median(ours["times_ms"]), "the same polynomials"),
-                    attempt("toppra", lambda a=(scene, vias, limits): by_toppra(*a)),
-                    attempt("ruckig", lambda a=(scene, vias, limits): by_ruckig(*a)),
+                    attempt("toppra", partial(by_toppra, scene, vias, limits)),
+                    attempt("ruckig", partial(by_ruckig, scene, vias, limits)),
                 ],
             )
         )

@@ -4,7 +4,8 @@ use std::time::Instant;
 /// Work that takes longer needs no warm-up (s).
 const LONG: f64 = 1.0;
 
-/// Does `work` `runs` times; returns how long each took (ms) and the last answer. Short work is warmed up first.
+/// Does `work` `runs` times; returns how long each took (ms) and the last answer. Short work is warmed up first. No two
+/// answers are held at a time, so that the most memory held is that of the work.
 pub(crate) fn times<T>(runs: usize, mut work: impl FnMut() -> T) -> (Vec<f64>, T) {
     let mut once = || {
         let begun = Instant::now();
@@ -17,6 +18,7 @@ pub(crate) fn times<T>(runs: usize, mut work: impl FnMut() -> T) -> (Vec<f64>, T
         spent.push(first);
     }
     while spent.len() < runs {
+        drop(answer);
         let (time, last) = once();
         spent.push(time);
         answer = last;
