@@ -2,7 +2,7 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
-.PHONY: demo test campaign setup bench tables ompl clean
+.PHONY: demo test campaign setup bench bench-core tables ompl clean
 
 demo: setup
 	$(BIN)/elbowroom paper --out out/paper
@@ -28,7 +28,20 @@ tables: setup
 campaign:
 	cargo test --release -p elbowroom --test campaign -- --ignored --nocapture --test-threads 1
 
+# elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about a quarter of an hour.
+# A peer that does not install is a row that says so. OMPL in C++ takes part where libompl-dev and cmake are installed.
 bench:
+	@test -x .venv-bench/bin/python || $(PYTHON) -m venv .venv-bench
+	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
+	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check .
+	@for peer in $$(.venv-bench/bin/python -m bench.peers); do \
+		.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check "$$peer" || echo "$$peer does not install"; \
+	done
+	cargo build --release --quiet -p elbowroom --example measure
+	.venv-bench/bin/python -m bench
+
+# Criterion's benchmarks of the core alone.
+bench-core:
 	cargo bench --workspace
 
 # Compares with OMPL (docs/ompl.md) in an environment of its own; rewrites the tables of that page and its picture.
@@ -49,4 +62,4 @@ setup:
 	@$(BIN)/maturin develop --release --quiet
 
 clean:
-	rm -rf .venv .venv-ompl out target
+	rm -rf .venv .venv-ompl .venv-bench out target

@@ -1,0 +1,1 @@
+"""elbowroom beside its peers: the same work in one run, everybody's answers checked (``make bench``)."""

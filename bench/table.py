@@ -1,0 +1,88 @@
+"""The page: tables of ratios in Markdown."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping, Sequence
+
+from bench.entries import Comparison, Entry, Goal, Section, Table
+
+
+def page(sections: Sequence[Section], about: Mapping[str, str]) -> str:
+    """Return the whole page; ``about`` says what it was measured on."""
+    lines = [
+        "# Benchmarks",
+        "",
+        "The same work by elbowroom and its peers, side by side in one run, everybody's answers checked. `make bench`",
+        "writes this page; `.venv-bench/bin/python -m bench --only KEY` measures one section again (keys stand in the",
+        "titles). Times are medians of the wall clock, on one core unless a row says otherwise: take the ratios from",
+        "them.",
+        "",
+        *(f"- {what}: {value}" for what, value in about.items()),
+        "",
+        "## Speed to reach",
+        "",
+        *goals([goal for section in sections for goal in section.goals]),
+        "",
+        "![how many times as long as elbowroom the peers take](images/benchmarks_ratios.png)",
+    ]
+    for section in sections:
+        lines += ["", *section_lines(section)]
+    return "\n".join(lines) + "\n"
+
+
+def goals(goals: Sequence[Goal]) -> Iterator[str]:
+    """Yield the table of goals, those not reached first."""
+    order = {False: 0, None: 1, True: 2}
+    said = {False: "**not reached**", None: "not measured", True: "reached"}
+    ordered = sorted(goals, key=lambda goal: order[goal.reached])
+    rows = [[goal.work, goal.goal, goal.measured, said[goal.reached]] for goal in ordered]
+    return markdown(["work", "goal", "measured", ""], rows)
+
+
+def section_lines(section: Section) -> Iterator[str]:
+    """Yield a section."""
+    yield f"## {section.title} (`{section.key}`)"
+    yield ""
+    yield from textwrap.wrap(section.words, 120, break_long_words=False, break_on_hyphens=False)
+    for picture in section.plots:
+        yield ""
+        yield f"![{section.title}](images/benchmarks_{picture}.png)"
+    for comparison in section.comparisons:
+        yield from ("", f"### {comparison.title}", "")
+        yield from markdown(["", "time", "x ours", "answer"], [row(comparison, entry) for entry in comparison.entries])
+    for table in section.tables:
+        yield from ("", f"### {table.title}", "")
+        yield from plain(table)
+
+
+def row(comparison: Comparison, entry: Entry) -> list[str]:
+    """Return the row of one entry."""
+    ratio = comparison.ratio(entry)
+    return [entry.who, duration(entry.ms), "-" if ratio is None else number(ratio), entry.answer]
+
+
+def duration(ms: float | None) -> str:
+    """Return a time in words; a dash where there is none."""
+    if ms is None:
+        return "-"
+    return f"{number(ms / 1000)} s" if ms >= 10_000 else f"{number(ms)} ms" if ms >= 1 else f"{number(ms * 1000)} µs"
+
+
+def number(value: float) -> str:
+    """Return three significant digits."""
+    decimals = 0 if value >= 100 else 1 if value >= 10 else 2
+    return f"{value:,.{decimals}f}"
+
+
+def plain(table: Table) -> Iterator[str]:
+    """Yield a table as it is."""
+    return markdown(table.header, table.rows)
+
+
+def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    """Yield the lines of a table."""
+    yield f"| {' | '.join(header)} |"
+    yield f"|{'---|' * len(header)}"
+    for cells in rows:
+        yield f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"

@@ -1,0 +1,1 @@
+"""One file for each piece of work; each has ``measure``, which returns a section of the page."""

@@ -1,0 +1,81 @@
+use elbowroom::free_space::FreeSpace;
+use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::scene::{Place, Scene, Shape};
+use elbowroom::search::{Progress, Until};
+use serde_json::json;
+
+use super::cells::Cells;
+use super::field::from_scratch;
+use super::{Outcome, runs, scenes};
+
+/// D* over the union of both maps after one obstacle moved by a cell, against D* from scratch, obstacle by
+/// obstacle, for the first task. The maps themselves are not part of the times.
+pub(crate) fn measure(file: &str, points: usize, runs: usize) -> Outcome {
+    let scene = scenes::load(file, points)?;
+    let task = scene.tasks.first().ok_or("the scene has no task")?;
+    let [start, goal] = [&task.start, &task.goal].map(|place| cell_of(&scene, place));
+    let (start, goal) = (start.ok_or("no tip start")?, goal.ok_or("no tip goal")?);
+    let before = union(&scene);
+    let field = from_scratch(&before, goal)?;
+    let mut found = Vec::new();
+    for obstacle in 0..scene.obstacles.len() {
+        let after = union(&moved(&scene, obstacle)?);
+        if !after.free[goal] {
+            continue;
+        }
+        let changed: Vec<usize> =
+            (0..after.free.len()).filter(|&cell| before.free[cell] != after.free[cell]).collect();
+        let repaired = |until: Until| {
+            // The copy to repair is made outside the time.
+            let mut copies: Vec<_> = (0..runs + 1).map(|_| field.clone()).collect();
+            runs::times(runs.min(copies.len()), || {
+                let mut field = copies.pop().unwrap_or_else(|| field.clone());
+                field.changed(&after, changed.iter().copied());
+                let progress = field.expand(&after, until, usize::MAX);
+                assert_eq!(progress, Progress::Done);
+                field
+            })
+        };
+        let (whole_ms, whole) = repaired(Until::WholeField);
+        let (settled_ms, settled) = repaired(Until::Settled(start));
+        let (scratch_ms, scratch) = runs::times(runs, || from_scratch(&after, goal));
+        let scratch = scratch?;
+        let equal =
+            whole.field() == scratch.field() && settled.cost_to_go(start) == scratch.cost_to_go(start);
+        found.push(json!({
+            "obstacle": obstacle, "changed": changed.len(), "equal": equal,
+            "whole_ms": whole_ms, "settled_ms": settled_ms, "scratch_ms": scratch_ms,
+            "expansions": whole.expansions() - field.expansions(),
+            "cost": scratch.cost_to_go(start),
+        }));
+    }
+    Ok(json!({ "obstacles": found, "free": before.free.iter().filter(|&&free| free).count() }))
+}
+
+/// Where the tip may stand in some posture.
+fn union(scene: &Scene) -> Cells {
+    let space = FreeSpace::of(scene);
+    let free = (0..scene.grid.len()).map(|cell| space.union_is_free(cell)).collect();
+    Cells { side: scene.grid.columns(), free }
+}
+
+/// The scene with one obstacle a grid step to the right.
+fn moved(scene: &Scene, obstacle: usize) -> Result<Scene, Box<dyn std::error::Error>> {
+    let right = |point: Point| Point::new(point.x + scene.grid.step(), point.y);
+    let mut scene = scene.clone();
+    let shape = match &scene.obstacles[obstacle].shape {
+        Shape::Circle(circle) => Shape::Circle(Circle::new(right(circle.center), circle.radius)?),
+        Shape::Polygon(polygon) => {
+            Shape::Polygon(Polygon::new(polygon.vertices().iter().copied().map(right).collect())?)
+        }
+    };
+    scene.obstacles[obstacle].shape = shape;
+    Ok(scene)
+}
+
+fn cell_of(scene: &Scene, place: &Place) -> Option<usize> {
+    match place {
+        Place::Tip(point) => scene.grid.nearest(*point),
+        Place::Configuration(_) => None,
+    }
+}
