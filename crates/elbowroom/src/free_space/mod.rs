@@ -2,11 +2,14 @@
 //! scene's grid.
 
 mod arc;
+mod block;
+mod boundary;
 mod fill;
-mod fill_shape;
 mod map;
 mod place;
+mod rule;
 mod space;
+mod stances;
 mod state;
 
 pub use map::{FreeSpaceMap, Reasons};

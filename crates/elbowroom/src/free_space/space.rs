@@ -5,6 +5,9 @@ use super::{CellState, FreeSpaceMap};
 use crate::arm::Posture;
 use crate::scene::Scene;
 
+/// Rows that are filled as one piece of work.
+const BAND: usize = 32;
+
 /// The free Cartesian space: a map for each posture over one grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FreeSpace {
@@ -29,7 +32,7 @@ impl FreeSpace {
         Self { maps }
     }
 
-    /// The maps of `scene`, or `None` if `keep_going`, asked row by row, said no.
+    /// The maps of `scene`, or `None` if `keep_going`, asked every few hundred points, said no.
     pub fn of_until(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let (maps, done) = fill(scene, keep_going);
         done.then_some(Self { maps })
@@ -70,12 +73,11 @@ fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap
     let filler = Filler::new(scene);
     let mut states = [(); 2].map(|()| vec![CellState::OutOfReach; scene.grid.len()]);
     let stopped = AtomicBool::new(false);
+    let go_on = || !stopped.load(Ordering::Relaxed) && keep_going();
     let [up, down] = &mut states;
-    for_each_row(scene.grid.columns(), [up, down], |row, states| {
-        if !stopped.load(Ordering::Relaxed) {
-            if keep_going() {
-                filler.fill_row(row, states);
-            } else {
+    for_each_band(BAND * scene.grid.columns(), [up, down], |band, states| {
+        for (posture, states) in Posture::ALL.into_iter().zip(states) {
+            if !filler.fill_rows(posture, band * BAND, states, &go_on) {
                 stopped.store(true, Ordering::Relaxed);
             }
         }
@@ -85,22 +87,22 @@ fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap
     (maps, !stopped.into_inner())
 }
 
-/// Calls `fill` with each row of both maps, on all cores where the pool is compiled in.
-fn for_each_row(
-    columns: usize,
-    states: [&mut Vec<CellState>; 2],
+/// Calls `fill` with each band of `len` points of both maps, on all cores where the pool is compiled in.
+fn for_each_band(
+    len: usize,
+    states: [&mut [CellState]; 2],
     fill: impl Fn(usize, [&mut [CellState]; 2]) + Sync,
 ) {
     let [up, down] = states;
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        let rows = up.par_chunks_mut(columns).zip(down.par_chunks_mut(columns)).enumerate();
-        rows.for_each(|(row, (up, down))| fill(row, [up, down]));
+        let bands = up.par_chunks_mut(len).zip(down.par_chunks_mut(len)).enumerate();
+        bands.for_each(|(band, (up, down))| fill(band, [up, down]));
     }
     #[cfg(not(feature = "parallel"))]
     {
-        let rows = up.chunks_mut(columns).zip(down.chunks_mut(columns)).enumerate();
-        rows.for_each(|(row, (up, down))| fill(row, [up, down]));
+        let bands = up.chunks_mut(len).zip(down.chunks_mut(len)).enumerate();
+        bands.for_each(|(band, (up, down))| fill(band, [up, down]));
     }
 }
