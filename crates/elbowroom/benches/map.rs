@@ -52,8 +52,8 @@ fn maps(c: &mut Criterion) {
     ] {
         let space = FreeSpace::of(&scene);
         for posture in Posture::ALL {
-            for (cell, state) in space.map(posture).states().iter().enumerate().step_by(97) {
-                assert_eq!(*state, state_of(&scene, scene.grid.point(cell), posture));
+            for (cell, state) in space.map(posture).states().enumerate().step_by(97) {
+                assert_eq!(state, state_of(&scene, scene.grid.point(cell), posture));
             }
         }
         group.throughput(Throughput::Elements(2 * scene.grid.len() as u64));

@@ -14,6 +14,11 @@ pub(super) struct Block {
 }
 
 impl Block {
+    /// How many points it has.
+    pub(super) fn points(&self) -> usize {
+        self.columns.len() * self.rows.len()
+    }
+
     /// Whether no side is longer than [`SIDE`].
     pub(super) fn is_small(&self) -> bool {
         self.columns.len() <= SIDE && self.rows.len() <= SIDE
@@ -25,10 +30,7 @@ impl Block {
         let Self { columns, rows } = self.clone();
         if columns.len() >= rows.len() {
             let at = split(&columns);
-            [
-                Self { columns: columns.start..at, rows: rows.clone() },
-                Self { columns: at..columns.end, rows },
-            ]
+            [Self { columns: columns.start..at, rows: rows.clone() }, Self { columns: at..columns.end, rows }]
         } else {
             let at = split(&rows);
             [Self { columns: columns.clone(), rows: rows.start..at }, Self { columns, rows: at..rows.end }]

@@ -3,8 +3,6 @@ use crate::geometry::{Point, Polygon};
 
 /// The edges of a polygon, made ready for many looks; positions are seen from the base.
 pub(super) struct Boundary {
-    /// Of a circle around all of it (m).
-    pub(super) radius: f64,
     edges: Vec<Edge>,
     /// A cross product up to which rounding may decide on which side of a line a point lies (m²).
     rounding: f64,
@@ -16,19 +14,24 @@ struct Edge {
     y: f64,
     dx: f64,
     dy: f64,
+    /// y of its end: the very number that the next edge begins with, so that both tell alike who is above it.
+    end_y: f64,
     inverse_squared: f64,
-    /// `dx / dy`.
+    /// Its way in x by that in y.
     slope: f64,
 }
 
 impl Boundary {
-    pub(super) fn new(polygon: &Polygon, base: Point, radius: f64, rounding: f64) -> Self {
+    pub(super) fn new(polygon: &Polygon, base: Point, rounding: f64) -> Self {
         let edges = polygon.edges().map(|edge| {
-            let (from, way) = (edge.a - base, edge.b - edge.a);
-            let inverse_squared = 1.0 / way.length_squared();
-            Edge { x: from.x, y: from.y, dx: way.x, dy: way.y, inverse_squared, slope: way.x / way.y }
+            let (from, to, way) = (edge.a - base, edge.b - base, edge.b - edge.a);
+            let squared = way.length_squared();
+            // An edge too short for its square is as good as its first end.
+            let inverse_squared = if squared > f64::MIN_POSITIVE { 1.0 / squared } else { 0.0 };
+            let slope = way.x / (to.y - from.y);
+            Edge { x: from.x, y: from.y, dx: way.x, dy: way.y, end_y: to.y, inverse_squared, slope }
         });
-        Self { radius, edges: edges.collect(), rounding }
+        Self { edges: edges.collect(), rounding }
     }
 
     /// A circle around `polygon`: the middle of its bounding box, and the farthest corner.
@@ -71,7 +74,7 @@ impl Boundary {
                 side[lane] = least(side[lane], apart);
                 doubt[lane] = least(doubt[lane], apart.abs());
 
-                let level = (y < 0.0) != (y < edge.dy);
+                let level = (links.y[lane] < edge.y) != (links.y[lane] < edge.end_y);
                 inside[lane] = if level & (x < y * edge.slope) { -inside[lane] } else { inside[lane] };
             }
         }

@@ -6,11 +6,13 @@ mod block;
 mod boundary;
 mod fill;
 mod map;
+mod mark;
 mod place;
 mod rule;
 mod space;
 mod stances;
 mod state;
+mod target;
 
 pub use map::{FreeSpaceMap, Reasons};
 pub use place::{NotFree, Reason, configurations};

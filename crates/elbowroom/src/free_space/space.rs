@@ -1,7 +1,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::FreeSpaceMap;
 use super::fill::Filler;
-use super::{CellState, FreeSpaceMap};
+use super::mark::{Kept, Marks};
 use crate::arm::Posture;
 use crate::scene::Scene;
 
@@ -71,38 +72,39 @@ fn both_are_one(scene: &Scene, cell: usize) -> bool {
 /// Both maps, and whether they were filled to the end.
 fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap; 2], bool) {
     let filler = Filler::new(scene);
-    let mut states = [(); 2].map(|()| vec![CellState::OutOfReach; scene.grid.len()]);
     let stopped = AtomicBool::new(false);
-    let go_on = || !stopped.load(Ordering::Relaxed) && keep_going();
-    let [up, down] = &mut states;
-    for_each_band(BAND * scene.grid.columns(), [up, down], |band, states| {
-        for (posture, states) in Posture::ALL.into_iter().zip(states) {
-            if !filler.fill_rows(posture, band * BAND, states, &go_on) {
-                stopped.store(true, Ordering::Relaxed);
-            }
+    let go_on = || {
+        let go_on = !stopped.load(Ordering::Relaxed) && keep_going();
+        if !go_on {
+            stopped.store(true, Ordering::Relaxed);
         }
+        go_on
+    };
+    let maps = Posture::ALL.map(|posture| {
+        let mut marks = Marks::free(scene.grid.len(), scene.obstacles.len());
+        match &mut marks {
+            Marks::Bytes(marks) => for_each_band(marks, &filler, posture, &go_on),
+            Marks::Words(marks) => for_each_band(marks, &filler, posture, &go_on),
+        }
+        FreeSpaceMap::new(posture, marks)
     });
-    let [up, down] = states;
-    let maps = [FreeSpaceMap::new(Posture::ElbowUp, up), FreeSpaceMap::new(Posture::ElbowDown, down)];
     (maps, !stopped.into_inner())
 }
 
-/// Calls `fill` with each band of `len` points of both maps, on all cores where the pool is compiled in.
-fn for_each_band(
-    len: usize,
-    states: [&mut [CellState]; 2],
-    fill: impl Fn(usize, [&mut [CellState]; 2]) + Sync,
+/// Fills one map band by band, on all cores where the pool is compiled in.
+fn for_each_band<M: Kept>(
+    marks: &mut [M],
+    filler: &Filler,
+    posture: Posture,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) {
-    let [up, down] = states;
+    let len = BAND * filler.columns();
+    let fill = |(band, marks): (usize, &mut [M])| filler.fill_rows(posture, band * BAND, marks, go_on);
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        let bands = up.par_chunks_mut(len).zip(down.par_chunks_mut(len)).enumerate();
-        bands.for_each(|(band, (up, down))| fill(band, [up, down]));
+        marks.par_chunks_mut(len).enumerate().for_each(fill);
     }
     #[cfg(not(feature = "parallel"))]
-    {
-        let bands = up.chunks_mut(len).zip(down.chunks_mut(len)).enumerate();
-        bands.for_each(|(band, (up, down))| fill(band, [up, down]));
-    }
+    marks.chunks_mut(len).enumerate().for_each(fill);
 }
