@@ -30,7 +30,7 @@ impl FreeSpace {
     ///     the obstacle, from 0, or -1.
     fn states<'py>(&self, py: Python<'py>, posture: usize) -> PyResult<States<'py>> {
         let posture = *Posture::ALL.get(posture).ok_or_else(|| errors::setting(py, "posture", "0 or 1"))?;
-        let states = self.space.map(posture).states();
+        let states: Vec<CellState> = self.space.map(posture).states().collect();
         let (rows, columns) = self.shape;
         let at = |(row, column): (usize, usize)| states[row * columns + column];
         let kinds = Array2::from_shape_fn((rows, columns), |place| match at(place) {

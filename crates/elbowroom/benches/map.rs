@@ -1,26 +1,29 @@
-//! The free-space maps of both postures: 1001 x 1001 points and twelve circles, and the size of the paper.
+//! The free-space maps of both postures: 1001 x 1001 points and twelve circles, or eight circles and four polygons;
+//! and the size of the paper.
 
 #![expect(clippy::expect_used, reason = "a benchmark that cannot be set up may panic")]
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use elbowroom::arm::{Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
 use elbowroom::free_space::{FreeSpace, state_of};
 use elbowroom::geometry::{Circle, Point};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Scene, Shape};
 
+fn grid(points: usize) -> Grid {
+    Grid::new([-0.5, 0.5], [-0.5, 0.5], 1.0 / (points - 1) as f64).expect("the grid is small")
+}
+
 /// The paper's arm among `count` circles on two rings.
-fn scene(points: usize, count: usize) -> Scene {
+fn circles(points: usize, count: usize) -> Scene {
     let limits = JointLimits::range(-2.6, 2.6).expect("the range is in order");
     let joints =
         [JointLimits::Continuous, limits].map(|limits| Joint { limits, motion: MotionLimits::default() });
     let arm =
         TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, joints).expect("the measures are sound");
-    let step = 1.0 / (points - 1) as f64;
-    let grid = Grid::new([-0.5, 0.5], [-0.5, 0.5], step).expect("the grid is small");
     let obstacles = (0..count)
         .map(|i| {
             let angle = TAU * i as f64 / count as f64;
@@ -29,21 +32,31 @@ fn scene(points: usize, count: usize) -> Scene {
             Obstacle { name: None, shape: Shape::Circle(Circle { center, radius: 0.03 }) }
         })
         .collect();
-    Scene { arm, grid, obstacles, tasks: Vec::new() }
+    Scene { arm, grid: grid(points), obstacles, tasks: Vec::new() }
+}
+
+/// `scenes/narrow.yaml` on a finer grid.
+fn narrow(points: usize) -> Scene {
+    let text = include_str!("../../../python/elbowroom/scenes/narrow.yaml");
+    let file = elbowroom::scene::parse(text, "narrow.yaml").expect("the scene is sound");
+    Scene { grid: grid(points), ..file.scene }
 }
 
 fn maps(c: &mut Criterion) {
     let mut group = c.benchmark_group("map");
     group.sample_size(20);
-    for (points, count) in [(101, 5), (1001, 12)] {
-        let scene = scene(points, count);
+    for (name, scene) in [
+        ("101 x 101, 5 circles", circles(101, 5)),
+        ("1001 x 1001, 12 circles", circles(1001, 12)),
+        ("1001 x 1001, 8 circles and 4 polygons", narrow(1001)),
+    ] {
         let space = FreeSpace::of(&scene);
         for posture in Posture::ALL {
-            for (cell, state) in space.map(posture).states().iter().enumerate().step_by(97) {
-                assert_eq!(*state, state_of(&scene, scene.grid.point(cell), posture));
+            for (cell, state) in space.map(posture).states().enumerate().step_by(97) {
+                assert_eq!(state, state_of(&scene, scene.grid.point(cell), posture));
             }
         }
-        let name = format!("{points} x {points}, {count} circles");
+        group.throughput(Throughput::Elements(2 * scene.grid.len() as u64));
         group.bench_with_input(BenchmarkId::new("fill", name), &scene, |b, scene| {
             b.iter(|| FreeSpace::of(black_box(scene)));
         });

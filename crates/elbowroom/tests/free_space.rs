@@ -7,10 +7,11 @@
 mod distance;
 
 use std::f64::consts::{PI, TAU};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
 use elbowroom::free_space::{CONTACT_FLOOR, CellState, FreeSpace, Reason, configurations, state_of};
-use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Place, Scene, Shape};
 use rand_chacha::ChaCha8Rng;
@@ -142,22 +143,206 @@ fn maps_of_a_thousand_random_scenes_equal_the_judge() {
         let scene = random_scene(&mut rng);
         let space = FreeSpace::of(&scene);
         for posture in Posture::ALL {
-            for (cell, state) in space.map(posture).states().iter().enumerate() {
+            for (cell, state) in space.map(posture).states().enumerate() {
                 let tip = scene.grid.point(cell);
                 match judged(&scene, tip, posture, 1e-7) {
                     None => doubtful += 1,
                     Some(expected) => {
-                        assert_eq!(*state, expected, "{posture:?} at {tip:?} in {scene:#?}");
+                        assert_eq!(state, expected, "{posture:?} at {tip:?} in {scene:#?}");
                         compared += 1;
                     }
                 }
-                assert_eq!(*state, state_of(&scene, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
-                seen.insert(std::mem::discriminant(state));
+                assert_eq!(state, state_of(&scene, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
+                seen.insert(std::mem::discriminant(&state));
             }
         }
     }
     assert!(compared > 1_000_000 && doubtful * 200 < compared, "{compared} compared, {doubtful} doubtful");
     assert_eq!(seen.len(), 4, "every kind of state came up");
+}
+
+/// Every state of both maps is that of [`state_of`]; how many of them are free, and how many collide.
+fn assert_maps_are_those_of_state_of(scene: &Scene) -> [usize; 2] {
+    let space = FreeSpace::of(scene);
+    let mut counts = [0; 2];
+    for posture in Posture::ALL {
+        let map = space.map(posture);
+        assert_eq!(map.states().len(), scene.grid.len());
+        for (cell, state) in map.states().enumerate() {
+            let tip = scene.grid.point(cell);
+            assert_eq!(state, state_of(scene, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
+            assert_eq!((map.state(cell), map.is_free(cell)), (Some(state), state == CellState::Free));
+            counts[0] += usize::from(state == CellState::Free);
+            counts[1] += usize::from(matches!(state, CellState::Collision { .. }));
+        }
+        assert_eq!((map.state(scene.grid.len()), map.is_free(scene.grid.len())), (None, false));
+    }
+    counts
+}
+
+/// The grid of `scene` with `columns` and `rows`, from one corner of it to the other.
+fn with_points(scene: Scene, [columns, rows]: [u64; 2]) -> Scene {
+    let (old, base) = (scene.grid, scene.arm.base());
+    let step = 2.0 * (base.x - old.origin().x) / columns.max(rows) as f64;
+    let range = |min: f64, points: u64| [min, min + step * (points - 1) as f64];
+    let grid = Grid::new(range(old.origin().x, columns), range(old.origin().y, rows), step).unwrap();
+    Scene { grid, ..scene }
+}
+
+#[test]
+fn fine_maps_equal_state_of() {
+    let mut rng = ChaCha8Rng::seed_from_u64(17);
+    for _ in 0..40 {
+        let scene = random_scene(&mut rng);
+        assert_maps_are_those_of_state_of(&with_points(scene, [129, 120]));
+    }
+    // Rows and columns that end with, before and after a block of points.
+    for _ in 0..300 {
+        let scene = random_scene(&mut rng);
+        let points = [(); 2].map(|()| 1 + pick(&mut rng, 41));
+        assert_maps_are_those_of_state_of(&with_points(scene, points));
+    }
+}
+
+/// Everything on whole numbers: edges in line with links, corners and tangents on grid points, limits at right angles.
+#[test]
+fn maps_on_whole_numbers_equal_state_of() {
+    let mut rng = ChaCha8Rng::seed_from_u64(18);
+    for round in 0..400 {
+        let whole = |rng: &mut ChaCha8Rng| pick(rng, 21) as f64 - 10.0;
+        let lengths = [[5.0, 5.0], [3.0, 4.0], [4.0, 3.0], [8.0, 1.0]][pick(&mut rng, 4) as usize];
+        let joints = [(); 2].map(|()| {
+            let right = |angle: u64| PI / 2.0 * (angle as f64 - 4.0);
+            let from = pick(&mut rng, 6);
+            let limits = match pick(&mut rng, 3) {
+                0 => JointLimits::range(right(from), right(from + pick(&mut rng, 5))).unwrap(),
+                _ => JointLimits::Continuous,
+            };
+            Joint { limits, motion: MotionLimits::default() }
+        });
+        let offset = [0.0, 0.0, 7.0, 1e6][pick(&mut rng, 4) as usize];
+        let half_width = [0.0, 1.0][pick(&mut rng, 2) as usize];
+        let arm = TwoLinkArm::new(Point::new(offset, -offset), lengths, half_width, joints).unwrap();
+        // Half of the obstacles are the floor of contact away from tangents and from lines of the grid.
+        let floor = [0.0, CONTACT_FLOOR][pick(&mut rng, 2) as usize];
+        let at = |x: f64, y: f64| Point::new(x + offset + floor, y - offset);
+        let obstacles = (0..pick(&mut rng, 5))
+            .map(|_| {
+                let (x, y) = (whole(&mut rng), whole(&mut rng));
+                if pick(&mut rng, 2) == 0 {
+                    let radius = [1.0, 2.0, 0.5, 30.0][pick(&mut rng, 4) as usize];
+                    return circle(x + offset, y - offset, radius - floor);
+                }
+                let (w, h) = (1.0 + pick(&mut rng, 6) as f64, 1.0 + pick(&mut rng, 6) as f64);
+                let corners = match pick(&mut rng, 4) {
+                    // A box with a vertex in the middle of each of two edges; a wedge; a room around the arm, open
+                    // to one side; a box around all of it.
+                    0 => {
+                        vec![at(x, y), at(x + w, y), at(x + 2.0 * w, y), at(x + 2.0 * w, y + h), at(x, y + h)]
+                    }
+                    1 => vec![at(x, y), at(x + w, y + h), at(x, y + h)],
+                    2 => [[-7, 6], [-7, -6], [7, -6], [7, -5], [-6, -5], [-6, 6]]
+                        .map(|[x, y]| at(f64::from(x), f64::from(y)))
+                        .to_vec(),
+                    _ => vec![at(-30.0, -30.0), at(30.0, -30.0), at(30.0, 30.0), at(-30.0, 30.0)],
+                };
+                Obstacle { name: None, shape: Shape::Polygon(Polygon::new(corners).unwrap()) }
+            })
+            .collect();
+        let range = |middle: f64| [middle - 10.0, middle + 10.0];
+        let step = if round % 4 == 0 { 0.25 } else { 1.0 };
+        let grid = Grid::new(range(offset), range(-offset), step).unwrap();
+        assert_maps_are_those_of_state_of(&Scene { arm, grid, obstacles, tasks: Vec::new() });
+    }
+}
+
+/// Steps down to a billionth of the reach about its ends, where the elbow moves with the root of the tip's way, and
+/// obstacles that the links just touch there.
+#[test]
+fn maps_at_the_ends_of_the_reach_equal_state_of() {
+    let mut rng = ChaCha8Rng::seed_from_u64(20);
+    for _ in 0..1_000 {
+        let scene = random_scene(&mut rng);
+        let (base, [nearest, farthest]) = (scene.arm.base(), scene.arm.reach());
+        let step = farthest * 10f64.powf(uniform(&mut rng, -9.0, -2.0));
+        let end = if pick(&mut rng, 2) == 0 { nearest } else { farthest };
+        let along = Vector::polar(1.0, uniform(&mut rng, -PI, PI));
+        let radius = uniform(&mut rng, 0.01, 0.2);
+        // A line of stretched or folded links runs past this circle, as near as the floor of contact.
+        let beside = radius + scene.arm.half_width() + CONTACT_FLOOR + step * uniform(&mut rng, -2.0, 2.0);
+        let center = base + along * uniform(&mut rng, 0.0, end) + Vector::new(-along.y, along.x) * beside;
+        let corner = base + along * end + Vector::new(-8.0 * step, -8.0 * step);
+        let range = |min: f64| [min, min + 16.0 * step];
+        let grid = Grid::new(range(corner.x), range(corner.y), step).unwrap();
+        let obstacles = vec![circle(center.x, center.y, radius)];
+        assert_maps_are_those_of_state_of(&Scene { grid, obstacles, ..scene });
+    }
+}
+
+#[test]
+fn maps_among_thousands_of_obstacles_equal_state_of() {
+    let mut rng = ChaCha8Rng::seed_from_u64(19);
+    // A byte a point is enough for 126 obstacles; 3,000 need more.
+    for (count, size) in [(126, 0.01), (127, 0.01), (3_000, 0.001)] {
+        let obstacles = (0..count).map(|_| {
+            let (x, y) = (uniform(&mut rng, -0.7, 0.7), uniform(&mut rng, -0.7, 0.7));
+            if pick(&mut rng, 3) == 0 { star(&mut rng, Point::new(x, y), size) } else { circle(x, y, size) }
+        });
+        // The last one is in the way as well.
+        let obstacles = obstacles.chain([circle(0.0, -0.3, 0.05)]).skip(1).collect();
+        let scene = upright(0.0, JointLimits::Continuous, obstacles);
+        let scene = Scene { grid: Grid::new([-0.8, 0.8], [-0.8, 0.8], 0.02).unwrap(), ..scene };
+        let [free, colliding] = assert_maps_are_those_of_state_of(&scene);
+        assert!(free > 0 && colliding > 0, "{count} obstacles: {free} free, {colliding} collide");
+        let last = CellState::Collision { link: 1, obstacle: count as u16 - 1 };
+        assert!(FreeSpace::of(&scene).map(Posture::ElbowUp).states().any(|state| state == last));
+    }
+}
+
+/// The longest and the shortest arms, far and huge obstacles, vertices and grids at the end of the numbers.
+#[test]
+fn maps_at_the_ends_of_the_numbers_equal_state_of() {
+    let free = [Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() }; 2];
+    for (lengths, base) in
+        [([1e6, 1e6], 0.0), ([1e6, 1e-6], 0.0), ([1e-6, 1e-6], 0.0), ([1e-6, 1e-6], 1e6), ([0.5, 0.4], 1e6)]
+    {
+        let size = lengths[0] + lengths[1];
+        let at = |x: f64, y: f64| Point::new(base + size * x, base + size * y);
+        let polygon = |corners: [[f64; 2]; 4]| Obstacle {
+            name: None,
+            shape: Shape::Polygon(Polygon::new(corners.map(|[x, y]| at(x, y)).to_vec()).unwrap()),
+        };
+        let tip = at(0.3, 0.6);
+        let (huge, tiny) = (1e300 / size, 1e-200);
+        for obstacle in [
+            circle(tip.x, tip.y, 0.1 * size),
+            circle(tip.x, tip.y, 1e6),
+            circle(1e6, 1e6, 1e6),
+            circle(tip.x, tip.y, f64::INFINITY),
+            circle(tip.x, tip.y, -1.0),
+            circle(f64::NAN, 0.0, 1.0),
+            polygon([[0.1, 0.3], [0.8, 0.3], [0.8, 0.4], [0.1, 0.4]]),
+            polygon([[0.1, 0.3], [huge, 0.3], [huge, huge], [0.1, huge]]),
+            Obstacle {
+                name: None,
+                shape: Shape::Polygon(
+                    Polygon::new(
+                        [[0.0, 0.0], [tiny, 0.0], [0.0, -size]].map(|[x, y]| Point::new(x, y)).to_vec(),
+                    )
+                    .unwrap(),
+                ),
+            },
+        ] {
+            let arm = TwoLinkArm::new(Point::new(base, base), lengths, 0.0, free).unwrap();
+            let range = [base - 1.1 * size, base + 1.1 * size];
+            for grid in [Grid::new(range, range, size / 20.0), Grid::new([-1e300, 1e300], [-1.0, 1.0], 1e299)]
+            {
+                let obstacles = vec![obstacle.clone()];
+                let scene = Scene { arm, grid: grid.unwrap(), obstacles, tasks: Vec::new() };
+                assert_maps_are_those_of_state_of(&scene);
+            }
+        }
+    }
 }
 
 /// The 3-4-5 arm of the tangency tests: at the tip (0.3, 0.4) its second link stands upright at x = 0.3.
@@ -182,7 +367,7 @@ fn touching_is_collision_and_the_limit_itself_is_allowed() {
         let scene = upright(half_width, right_angle, vec![circle(0.4, 0.2, radius)]);
         assert_eq!(state_of(&scene, tip, Posture::ElbowDown), expected);
         let cell = scene.grid.nearest(tip).unwrap();
-        assert_eq!(FreeSpace::of(&scene).map(Posture::ElbowDown).states()[cell], expected);
+        assert_eq!(FreeSpace::of(&scene).map(Posture::ElbowDown).state(cell), Some(expected));
     }
     let square = |left: f64| {
         let corners = [[left, 0.1], [left + 0.1, 0.1], [left + 0.1, 0.2], [left, 0.2]];
@@ -267,4 +452,9 @@ fn a_map_that_is_stopped_is_no_map() {
     let scene = upright(0.0, JointLimits::Continuous, Vec::new());
     assert!(FreeSpace::of_until(&scene, &|| false).is_none());
     assert!(FreeSpace::of_until(&scene, &|| true).is_some());
+
+    let fine = Scene { grid: Grid::new([-0.8, 0.8], [-0.8, 0.8], 0.002).unwrap(), ..scene };
+    let asked = AtomicUsize::new(0);
+    assert!(FreeSpace::of_until(&fine, &|| asked.fetch_add(1, Ordering::Relaxed) < 100).is_none());
+    assert!(asked.load(Ordering::Relaxed) < 200, "it was asked on after the first no");
 }

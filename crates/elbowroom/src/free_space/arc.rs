@@ -3,39 +3,34 @@ use std::f64::consts::{PI, TAU};
 use crate::arm::JointLimits;
 use crate::geometry::Vector;
 
-/// How near to the end of an arc a direction is left undecided, as the sine of the angle between them: far
-/// wider than any rounding.
-const UNDECIDED: f64 = 1e-9;
-
-/// The directions a joint may point in, asked without an angle.
-pub(super) enum Arc {
-    /// All of them.
-    Full,
-    /// Counter-clockwise from one direction to another.
-    Part { from: Vector, to: Vector, wide: bool },
+/// The directions a joint with stops may point in, less than a whole turn, asked without an angle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arc {
+    from: Vector,
+    to: Vector,
+    wide: bool,
 }
 
 impl Arc {
-    pub(super) fn of(limits: &JointLimits) -> Self {
+    /// The arc of `limits`; `None` where they allow every direction.
+    pub(super) fn of(limits: &JointLimits) -> Option<Self> {
         match *limits {
-            JointLimits::Range { min, max } if max - min < TAU => Self::Part {
+            JointLimits::Range { min, max } if max - min < TAU => Some(Self {
                 from: Vector::polar(1.0, min),
                 to: Vector::polar(1.0, max),
                 wide: max - min > PI,
-            },
-            _ => Self::Full,
+            }),
+            _ => None,
         }
     }
 
-    /// Whether the arc holds the unit vector `direction`; `None` where it points to the arc's very end.
-    pub(super) fn holds(&self, direction: Vector) -> Option<bool> {
-        let Self::Part { from, to, wide } = self else { return Some(true) };
-        let (after_from, before_to) = (from.cross(direction), direction.cross(*to));
-        if (after_from.abs() < UNDECIDED && from.dot(direction) > 0.0)
-            || (before_to.abs() < UNDECIDED && to.dot(direction) > 0.0)
-        {
-            return None;
-        }
-        Some(if *wide { after_from > 0.0 || before_to > 0.0 } else { after_from > 0.0 && before_to > 0.0 })
+    /// How far inside the arc the unit vector (`x`, `y`) points, negative outside.
+    ///
+    /// Above `s`, for any `s` of 0 to 1, every direction within `s` (rad) of it is inside; below `-s`, outside.
+    #[inline(always)]
+    pub(super) fn measure(&self, x: f64, y: f64) -> f64 {
+        let after_from = self.from.x * y - self.from.y * x;
+        let before_to = x * self.to.y - y * self.to.x;
+        if (after_from < before_to) == self.wide { before_to } else { after_from }
     }
 }

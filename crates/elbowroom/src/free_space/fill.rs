@@ -1,117 +1,200 @@
-//! The quick way to fill a map: no trigonometry per point, the postures' common part worked out once.
+//! The quick way to fill a map.
+//!
+//! A band of rows is halved again and again, as long as some [`Rule`] can forbid one part of a block and allow the
+//! rest. At the middle of a block each rule still open is asked with the slack that the arm has while its tip is
+//! anywhere in the block: a rule that forbids nothing there is never asked again within it, and one that forbids all
+//! of it settles it. What is left of a small block is asked point by point; where rounding could decide, the
+//! reference, [`state_of`], does. So most of the work lies along the borders of the free space, and its amount grows
+//! with the number of points only as its root does.
+//!
+//! Exact intervals of the first joint would need a search for each point and a case for each pair of shape and link;
+//! blocks need a distance alone. The points of a small block are worked on as plain arrays, which the compiler turns
+//! into the vector instructions every machine of its kind has; wider ones, chosen at run time, gained a tenth.
 
-use super::arc::Arc;
-use super::fill_shape::{FillShape, Look};
-use super::state::{CellState, state_of};
+use std::ops::Range;
+
+use super::block::{Block, SIDE};
+use super::mark::{FREE, Kept, Mark, mark_of};
+use super::rule::{Rule, Slack, UNDECIDED};
+use super::stances::{Lanes, Lengths, Stances};
+use super::state::state_of;
 use crate::arm::Posture;
-use crate::geometry::{Point, Segment, Vector};
+use crate::geometry::Point;
 use crate::scene::Scene;
 
-/// How near to the ends of the reach a point is left to the reference, as a share of the reach squared: there the
-/// elbow moves with the square root of the tip's rounding.
-const NEAR_END_OF_REACH: f64 = 1e-6;
+/// Points of a small block.
+const POINTS: usize = SIDE * SIDE;
+
+/// Points of a block that is filled without asking whether to go on: about a millisecond even if the reference has to
+/// decide on all of them.
+const UNASKED: usize = 512;
 
 /// What is worked out once for all points of a map.
 pub(super) struct Filler<'a> {
     scene: &'a Scene,
-    shapes: Vec<FillShape<'a>>,
-    joints: [Arc; 2],
-}
-
-/// What both postures share at a place of the tip.
-struct Triangle {
-    /// Unit vector from base to tip.
-    along: Vector,
-    /// From the base, where the elbow's foot on that ray lies (m).
-    foot: f64,
-    /// How far beside the ray the elbow lies (m).
-    beside: f64,
-    /// Cosine of the second joint.
-    cos: f64,
-    /// Sine of the second joint, its size.
-    sin: f64,
+    lengths: Lengths,
+    rules: Vec<Rule>,
 }
 
 impl<'a> Filler<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
-        let joints = scene.arm.joints();
-        Self {
-            scene,
-            shapes: FillShape::within_reach(scene),
-            joints: [Arc::of(&joints[0].limits), Arc::of(&joints[1].limits)],
-        }
+        Self { scene, lengths: Lengths::of(&scene.arm), rules: Rule::all(scene) }
     }
 
-    /// Fills one row of both maps.
-    pub(super) fn fill_row(&self, row: usize, states: [&mut [CellState]; 2]) {
-        let grid = &self.scene.grid;
-        let y = grid.y(row);
-        let [up, down] = states;
-        for (column, (up, down)) in up.iter_mut().zip(down).enumerate() {
-            [*up, *down] = self.states_at(Point::new(grid.x(column), y));
-        }
+    /// Points in a row.
+    pub(super) fn columns(&self) -> usize {
+        self.scene.grid.columns()
     }
 
-    /// The states of one place, elbow-up first: those of [`state_of`].
-    fn states_at(&self, tip: Point) -> [CellState; 2] {
-        let arm = &self.scene.arm;
-        let ray = tip - arm.base();
-        let [nearest, farthest] = arm.reach();
-        let squared = ray.length_squared();
-        let scale = NEAR_END_OF_REACH * farthest * farthest;
-        let short_of_farthest = farthest * farthest - squared;
-        let beyond_nearest = squared - nearest * nearest;
-        if short_of_farthest < -scale || beyond_nearest < -scale {
-            return [CellState::OutOfReach; 2];
+    /// Fills the part `marks` of the map of `posture`, from the row `first` on, unless `keep_going`, asked every few
+    /// hundred points, says no.
+    pub(super) fn fill_rows<M: Kept>(
+        &self,
+        posture: Posture,
+        first: usize,
+        marks: &mut [M],
+        keep_going: &dyn Fn() -> bool,
+    ) {
+        if !keep_going() {
+            return;
         }
-        if short_of_farthest < scale || beyond_nearest < scale {
-            return Posture::ALL.map(|posture| state_of(self.scene, tip, posture));
-        }
-        let [l1, l2] = arm.lengths();
-        let distance = squared.sqrt();
-        let root = (short_of_farthest * beyond_nearest).sqrt();
-        let triangle = Triangle {
-            along: ray * (1.0 / distance),
-            foot: (squared + (l1 - l2) * (l1 + l2)) / (2.0 * distance),
-            beside: root / (2.0 * distance),
-            cos: (squared - l1 * l1 - l2 * l2) / (2.0 * l1 * l2),
-            sin: root / (2.0 * l1 * l2),
+        let columns = self.columns();
+        let block = Block { columns: 0..columns, rows: first..first + marks.len() / columns };
+        let all = 0..self.rules.len();
+        let mut band = Band {
+            filler: self,
+            posture,
+            middle: Stances::new(self.lengths, posture),
+            points: Stances::new(self.lengths, posture),
+            first,
+            marks,
+            open: all.clone().collect(),
+            keep_going,
         };
-        Posture::ALL.map(|posture| {
-            self.decide(tip, &triangle, posture).unwrap_or_else(|| state_of(self.scene, tip, posture))
-        })
+        band.fill(&block, all, FREE);
+    }
+}
+
+/// Some rows of one map, and what is at hand while they are filled.
+struct Band<'f, M> {
+    filler: &'f Filler<'f>,
+    posture: Posture,
+    middle: Stances<1>,
+    points: Stances<POINTS>,
+    first: usize,
+    marks: &'f mut [M],
+    /// The rules that are open in the block at hand and in those it is part of, one list after the other.
+    open: Vec<usize>,
+    keep_going: &'f dyn Fn() -> bool,
+}
+
+impl<M: Kept> Band<'_, M> {
+    /// Fills `block`, where the rules in the part `open` of the list are open and `otherwise` marks what none forbids;
+    /// false if it was stopped.
+    fn fill(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) -> bool {
+        let end = self.open.len();
+        let (open, otherwise) = self.still_open(block, open, otherwise);
+        let mut done = true;
+        if open.is_empty() {
+            for row in block.rows.clone() {
+                self.row(row, &block.columns).fill(M::cut(otherwise));
+            }
+        } else if block.is_small() {
+            self.fill_points(block, open, otherwise);
+        } else {
+            done = (block.points() < UNASKED || (self.keep_going)())
+                && block.halves().iter().all(|half| self.fill(half, open.clone(), otherwise));
+        }
+        self.open.truncate(end);
+        done
     }
 
-    /// The state, or `None` where rounding could decide.
-    fn decide(&self, tip: Point, triangle: &Triangle, posture: Posture) -> Option<CellState> {
-        let arm = &self.scene.arm;
-        let side = match posture {
-            Posture::ElbowUp => 1.0,
-            Posture::ElbowDown => -1.0,
-        };
-        let Vector { x, y } = triangle.along;
-        let (foot, beside) = (triangle.foot, side * triangle.beside);
-        let to_elbow = Vector::new(foot * x - beside * y, foot * y + beside * x);
-        if !self.joints[0].holds(to_elbow * (1.0 / arm.lengths()[0]))? {
-            return Some(CellState::JointLimit { joint: 1 });
+    /// Which of the rules stay open in all of `block`, and what marks the places that none of them forbids.
+    fn still_open(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) -> (Range<usize>, Mark) {
+        let (middle, radius) = block.circle_around(&self.filler.scene.grid, self.filler.scene.arm.base());
+        self.middle.stand(&[middle.x], &[middle.y]);
+        let slack = self.slack(radius);
+        let start = self.open.len();
+        for place in open {
+            let rule = &self.filler.rules[self.open[place]];
+            let mut mark = [FREE];
+            match &slack {
+                Some(slack) => rule.mark(&self.middle, slack, &mut mark),
+                None if rule.allows_around(middle, radius, &self.filler.lengths) => {}
+                None => mark = [UNDECIDED],
+            }
+            match mark[0] {
+                FREE => {}
+                UNDECIDED => self.open.push(self.open[place]),
+                forbidden => return (start..self.open.len(), forbidden),
+            }
         }
-        if !self.joints[1].holds(Vector::new(triangle.cos, -side * triangle.sin))? {
-            return Some(CellState::JointLimit { joint: 2 });
-        }
-        let elbow = arm.base() + to_elbow;
-        for (link, segment) in
-            [Segment::new(arm.base(), elbow), Segment::new(elbow, tip)].into_iter().enumerate()
+        (start..self.open.len(), otherwise)
+    }
+
+    /// How far the arm moves at most while its tip goes anywhere within `radius` of the middle, if all of that is out
+    /// of reach or all within; `None` where it may come to the ends of the reach.
+    ///
+    /// The second joint's sine bounds it: the tip moves at least that many times as far as the elbow, and the square
+    /// of the sine has no least value but at the ends of an interval of squared distances.
+    fn slack(&self, radius: f64) -> Option<Slack> {
+        let lengths = &self.filler.lengths;
+        let distance = self.middle.squared[0].sqrt();
+        let (near, far) = ((distance - radius).max(0.0), distance + radius);
+        let (near_squared, far_squared) = (near * near, far * far);
+        let (past_nearest, short_of_farthest) =
+            (|squared| squared - lengths.nearest_squared, |squared| lengths.farthest_squared - squared);
+        if short_of_farthest(near_squared) < -lengths.rounding
+            || past_nearest(far_squared) < -lengths.rounding
         {
-            for shape in &self.shapes {
-                match shape.look(segment, arm.half_width()) {
-                    Look::Clear => {}
-                    Look::Touching => {
-                        return Some(CellState::Collision { link: link as u8 + 1, obstacle: shape.index });
-                    }
-                    Look::Undecided => return None,
+            return Some(Slack::default());
+        }
+        if past_nearest(near_squared) < lengths.rounding || short_of_farthest(far_squared) < lengths.rounding
+        {
+            return None;
+        }
+        let area = lengths.area(near_squared).min(lengths.area(far_squared));
+        let product = lengths.first * lengths.second;
+        let sine = area.sqrt() / (2.0 * product);
+        let elbow = radius / sine;
+        let joints = [elbow / lengths.first, far * radius / (product * sine)];
+        Some(Slack { joints, links: elbow })
+    }
+
+    /// Fills a small block, point by point.
+    fn fill_points(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) {
+        let Filler { scene, rules, .. } = self.filler;
+        let (grid, base, posture) = (&scene.grid, scene.arm.base(), self.posture);
+        let (mut x, mut y): (Lanes<POINTS>, Lanes<POINTS>) = ([0.0; POINTS], [0.0; POINTS]);
+        // Lanes beyond the block's last column or row hold points that are not kept.
+        let across: [f64; SIDE] = std::array::from_fn(|i| grid.x(block.columns.start + i) - base.x);
+        for (row, (x, y)) in x.chunks_exact_mut(SIDE).zip(y.chunks_exact_mut(SIDE)).enumerate() {
+            x.copy_from_slice(&across);
+            y.fill(grid.y(block.rows.start + row) - base.y);
+        }
+        self.points.stand(&x, &y);
+        let mut found = [otherwise; POINTS];
+        // The first rule in order is asked last.
+        for &rule in self.open[open].iter().rev() {
+            rules[rule].mark(&self.points, &Slack::default(), &mut found);
+        }
+        for (row, found) in block.rows.clone().zip(found.chunks(SIDE)) {
+            let columns = block.columns.clone();
+            let marks = self.row(row, &columns);
+            for (mark, &found) in marks.iter_mut().zip(found) {
+                *mark = M::cut(found);
+            }
+            for ((mark, &found), column) in marks.iter_mut().zip(found).zip(columns) {
+                if found == UNDECIDED {
+                    let tip = Point::new(grid.x(column), grid.y(row));
+                    *mark = M::cut(mark_of(state_of(scene, tip, posture)));
                 }
             }
         }
-        Some(CellState::Free)
+    }
+
+    fn row(&mut self, row: usize, columns: &Range<usize>) -> &mut [M] {
+        let start = (row - self.first) * self.filler.columns();
+        &mut self.marks[start + columns.start..start + columns.end]
     }
 }

@@ -2,13 +2,18 @@
 //! scene's grid.
 
 mod arc;
+mod block;
+mod boundary;
 mod fill;
-mod fill_shape;
 mod map;
+mod mark;
 mod place;
+mod rule;
 mod slices;
 mod space;
+mod stances;
 mod state;
+mod target;
 
 pub use map::{FreeSpaceMap, Reasons};
 pub use place::{NotFree, Reason, configurations};

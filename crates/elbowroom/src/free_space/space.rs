@@ -1,9 +1,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use super::FreeSpaceMap;
 use super::fill::Filler;
-use super::{CellState, FreeSpaceMap};
+use super::mark::{Kept, Marks};
 use crate::arm::Posture;
 use crate::scene::Scene;
+
+/// Rows that are filled as one piece of work.
+const BAND: usize = 32;
 
 /// The free Cartesian space: a map for each posture over one grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,7 +33,7 @@ impl FreeSpace {
         Self { maps }
     }
 
-    /// The maps of `scene`, or `None` if `keep_going`, asked row by row, said no.
+    /// The maps of `scene`, or `None` if `keep_going`, asked every few hundred points, said no.
     pub fn of_until(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let (maps, done) = fill(scene, keep_going);
         done.then_some(Self { maps })
@@ -68,39 +72,39 @@ fn both_are_one(scene: &Scene, cell: usize) -> bool {
 /// Both maps, and whether they were filled to the end.
 fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap; 2], bool) {
     let filler = Filler::new(scene);
-    let mut states = [(); 2].map(|()| vec![CellState::OutOfReach; scene.grid.len()]);
     let stopped = AtomicBool::new(false);
-    let [up, down] = &mut states;
-    for_each_row(scene.grid.columns(), [up, down], |row, states| {
-        if !stopped.load(Ordering::Relaxed) {
-            if keep_going() {
-                filler.fill_row(row, states);
-            } else {
-                stopped.store(true, Ordering::Relaxed);
-            }
+    let go_on = || {
+        let go_on = !stopped.load(Ordering::Relaxed) && keep_going();
+        if !go_on {
+            stopped.store(true, Ordering::Relaxed);
         }
+        go_on
+    };
+    let maps = Posture::ALL.map(|posture| {
+        let mut marks = Marks::free(scene.grid.len(), scene.obstacles.len());
+        match &mut marks {
+            Marks::Bytes(marks) => for_each_band(marks, &filler, posture, &go_on),
+            Marks::Words(marks) => for_each_band(marks, &filler, posture, &go_on),
+        }
+        FreeSpaceMap::new(posture, marks)
     });
-    let [up, down] = states;
-    let maps = [FreeSpaceMap::new(Posture::ElbowUp, up), FreeSpaceMap::new(Posture::ElbowDown, down)];
     (maps, !stopped.into_inner())
 }
 
-/// Calls `fill` with each row of both maps, on all cores where the pool is compiled in.
-fn for_each_row(
-    columns: usize,
-    states: [&mut Vec<CellState>; 2],
-    fill: impl Fn(usize, [&mut [CellState]; 2]) + Sync,
+/// Fills one map band by band, on all cores where the pool is compiled in.
+fn for_each_band<M: Kept>(
+    marks: &mut [M],
+    filler: &Filler,
+    posture: Posture,
+    go_on: &(dyn Fn() -> bool + Sync),
 ) {
-    let [up, down] = states;
+    let len = BAND * filler.columns();
+    let fill = |(band, marks): (usize, &mut [M])| filler.fill_rows(posture, band * BAND, marks, go_on);
     #[cfg(feature = "parallel")]
     {
         use rayon::prelude::*;
-        let rows = up.par_chunks_mut(columns).zip(down.par_chunks_mut(columns)).enumerate();
-        rows.for_each(|(row, (up, down))| fill(row, [up, down]));
+        marks.par_chunks_mut(len).enumerate().for_each(fill);
     }
     #[cfg(not(feature = "parallel"))]
-    {
-        let rows = up.chunks_mut(columns).zip(down.chunks_mut(columns)).enumerate();
-        rows.for_each(|(row, (up, down))| fill(row, [up, down]));
-    }
+    marks.chunks_mut(len).enumerate().for_each(fill);
 }

@@ -1,0 +1,111 @@
+use super::CellState;
+use super::arc::Arc;
+use super::mark::{Mark, mark_of};
+use super::stances::{Lengths, Stances};
+use super::target::Target;
+use crate::geometry::Point;
+use crate::scene::Scene;
+
+/// How near to a joint's stop a direction is left undecided (rad).
+const JOINT_ROUNDING: f64 = 1e-9;
+
+/// A reason why the tip may not stand somewhere.
+pub(super) struct Rule {
+    /// Stands for the state of the places it forbids.
+    mark: Mark,
+    test: Test,
+}
+
+enum Test {
+    /// The tip is out of reach.
+    Reach,
+    /// A joint, from 0, points outside `arc`.
+    Joint { joint: usize, arc: Arc },
+    /// A link, from 0, touches an obstacle.
+    Contact { link: usize, obstacle: Target },
+}
+
+/// How far the stances asked about may be from those tried; both are out of reach, or both within.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Slack {
+    /// Of each joint (rad).
+    pub(super) joints: [f64; 2],
+    /// Of any point of any link (m).
+    pub(super) links: f64,
+}
+
+/// Marks a place where slack or rounding may decide.
+pub(super) const UNDECIDED: Mark = Mark::MAX;
+
+impl Rule {
+    /// All rules of `scene` that could forbid anything, those that come first in [`CellState`]'s order first.
+    pub(super) fn all(scene: &Scene) -> Vec<Self> {
+        let arm = &scene.arm;
+        let mut rules = vec![Self { mark: mark_of(CellState::OutOfReach), test: Test::Reach }];
+        for joint in 0..2 {
+            if let Some(arc) = Arc::of(&arm.joints()[joint].limits) {
+                let state = CellState::JointLimit { joint: joint as u8 + 1 };
+                rules.push(Self { mark: mark_of(state), test: Test::Joint { joint, arc } });
+            }
+        }
+        let targets: Vec<Target> =
+            scene.obstacles.iter().map(|obstacle| Target::new(arm, obstacle)).collect();
+        for (link, reach) in [arm.lengths()[0], arm.reach()[1]].into_iter().enumerate() {
+            for (index, target) in targets.iter().enumerate().filter(|(_, target)| target.is_within(reach)) {
+                let state = CellState::Collision { link: link as u8 + 1, obstacle: index as u16 };
+                let test = Test::Contact { link, obstacle: target.clone() };
+                rules.push(Self { mark: mark_of(state), test });
+            }
+        }
+        rules
+    }
+
+    /// Marks the stances that this rule does not surely allow; what earlier calls marked is overwritten, so that of
+    /// several rules the one asked last has the say.
+    #[inline(always)]
+    pub(super) fn mark<const N: usize>(&self, at: &Stances<N>, slack: &Slack, marks: &mut [Mark; N]) {
+        let mut measure = [0.0; N];
+        let (forbidden_below, allowed_above) = match &self.test {
+            Test::Reach => {
+                let Lengths { nearest_squared, farthest_squared, rounding, .. } = at.lengths;
+                for (measure, squared) in measure.iter_mut().zip(at.squared) {
+                    let (short, beyond) = (farthest_squared - squared, squared - nearest_squared);
+                    *measure = if short < beyond { short } else { beyond };
+                }
+                (-rounding, rounding)
+            }
+            Test::Joint { joint, arc } => {
+                for (lane, measure) in measure.iter_mut().enumerate() {
+                    let (cos, sin) = at.direction(lane, *joint);
+                    *measure = arc.measure(cos, sin);
+                }
+                let slack = JOINT_ROUNDING + slack.joints[*joint];
+                (-slack, slack)
+            }
+            Test::Contact { link, obstacle } => {
+                let slack = obstacle.rounding + slack.links;
+                if !obstacle.measure(&at.links[*link], slack, &mut measure) {
+                    return;
+                }
+                let (least, most) = (obstacle.contact - slack, obstacle.contact + slack);
+                // With more slack than contact only a negative measure, of a link that enters, is deep enough.
+                (if least > 0.0 { least * least } else { -slack * slack }, most * most)
+            }
+        };
+        for (mark, measure) in marks.iter_mut().zip(measure) {
+            // A measure that is not a number is neither above nor below.
+            let otherwise = if measure < forbidden_below { self.mark } else { UNDECIDED };
+            *mark = if measure > allowed_above { *mark } else { otherwise };
+        }
+    }
+
+    /// Whether this forbids nothing while the tip is within `radius` of `middle`, wherever the elbow may be.
+    pub(super) fn allows_around(&self, middle: Point, radius: f64, lengths: &Lengths) -> bool {
+        match &self.test {
+            Test::Contact { obstacle, .. } => {
+                obstacle.is_beyond(lengths.first + lengths.second, middle, radius)
+            }
+            _ => false,
+        }
+    }
+}
