@@ -29,7 +29,8 @@ impl Segment {
 
     /// Distance from the segment to `point` (m).
     pub fn distance_to_point(self, point: Point) -> f64 {
-        self.nearest(point).distance(point)
+        // No hypot: scenes are far from where squares overflow, and one that underflows is a touch.
+        (self.nearest(point) - point).length_squared().sqrt()
     }
 
     /// Whether the two segments have a point in common; exact for the coordinates given.

@@ -1,7 +1,7 @@
 //! Whether the arm may turn straight from one configuration to another: certified, not sampled.
 
 use crate::arm::{Configuration, TwoLinkArm};
-use crate::geometry::Segment;
+use crate::geometry::{Segment, Vector};
 use crate::scene::{Obstacle, Scene};
 
 /// Least clearance that a certified motion keeps (m): twice the verifier's floor, so that what is
@@ -53,7 +53,7 @@ fn sweep(
 
 /// Clearance of each link at `q` from the nearest obstacle (m), base first.
 pub fn link_clearances(scene: &Scene, q: &Configuration<2>) -> [f64; 2] {
-    scene.arm.links(q).map(|link| {
+    Pose::of(&scene.arm, q).links.map(|link| {
         let distances = scene.obstacles.iter().map(|obstacle| obstacle.distance_to_segment(link));
         distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width()
     })
@@ -74,7 +74,9 @@ struct Pose {
 
 impl Pose {
     fn of(arm: &TwoLinkArm, q: &Configuration<2>) -> Self {
-        Self { q: *q, links: arm.links(q) }
+        let elbow = arm.elbow(q);
+        let tip = elbow + Vector::polar(arm.lengths()[1], q.0[0] + q.0[1]);
+        Self { q: *q, links: [Segment::new(arm.base(), elbow), Segment::new(elbow, tip)] }
     }
 }
 

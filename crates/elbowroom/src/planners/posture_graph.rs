@@ -1,4 +1,4 @@
-use super::sheets::{Sheets, direct};
+use super::sheets::{Edge, Record, Sheets, direct, to_edge};
 use crate::arm::{Configuration, Posture};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
@@ -86,7 +86,7 @@ impl<'a> PostureGraph<'a> {
     /// Where the tip is at `node`.
     pub(crate) fn tip(&self, node: usize) -> Point {
         match node.checked_sub(self.sheets.len()) {
-            None => self.scene.grid.point(self.sheets.cell(node)),
+            None => self.scene.grid.point(self.sheets.sheet_and_cell(node).1),
             Some(i) => self.places[i].tip,
         }
     }
@@ -164,69 +164,73 @@ impl<'a> PostureGraph<'a> {
     fn cost(&self, a: Point, b: Point, qa: &Configuration<2>, qb: &Configuration<2>) -> f64 {
         let straight = a.distance(b);
         let travel = match (Posture::of(qa), Posture::of(qb)) {
-            (Some(pa), Some(pb)) if pa != pb => straight.max(self.to_edge(a) + self.to_edge(b)),
+            (Some(pa), Some(pb)) if pa != pb => {
+                straight.max(to_edge(&self.scene.arm, a) + to_edge(&self.scene.arm, b))
+            }
             _ => straight,
         };
         travel.max(LEAST_COST * self.scene.grid.step())
     }
 
-    /// From `tip` to the nearer edge of the reach (m).
-    fn to_edge(&self, tip: Point) -> f64 {
-        let [nearest, farthest] = self.scene.arm.reach();
-        let distance = tip.distance(self.scene.arm.base());
-        (farthest - distance).min(distance - nearest).max(0.0)
-    }
-
-    /// Whether the edge from `node` to its neighbour `other` on the sheet is certified; `direction` is the
-    /// neighbour's place around it.
-    fn sheet_edge(&self, node: usize, other: usize, direction: usize, q: &Configuration<2>) -> bool {
-        self.sheets.edge(node, direction).unwrap_or_else(|| {
-            let certified = self.sheets.configuration(other).is_some_and(|to| {
-                self.is_clear_at_a_glance((node, q), (other, &to)) || self.is_certified(q, &to)
-            });
-            self.sheets.keep_edge(node, direction, certified);
-            // Directions go once round, so the way back is four further.
-            self.sheets.keep_edge(other, (direction + 4) % 8, certified);
+    /// Whether the edge from `from`, kept at `place`, to its neighbour `other` on the sheet is certified.
+    fn sheet_edge(&self, (place, from): (usize, &Record), other: usize, direction: usize) -> bool {
+        let edge = Edge::along(direction);
+        from.is_certified(edge).unwrap_or_else(|| {
+            let Some((there, to)) = self.sheets.look(other) else { return false };
+            let certified = self.is_clear_at_a_glance(from, &to) || self.is_certified(&from.q, &to.q);
+            self.sheets.keep_edge(place, edge, there, certified);
             certified
         })
     }
 
-    /// Whether the clearances at both ends are enough to certify the straight turn between two nodes of a sheet.
-    fn is_clear_at_a_glance(&self, from: (usize, &Configuration<2>), to: (usize, &Configuration<2>)) -> bool {
+    /// Whether the clearances at both ends are enough to certify the straight turn between two nodes.
+    fn is_clear_at_a_glance(&self, from: &Record, to: &Record) -> bool {
         let arm = &self.scene.arm;
-        let clearances = (self.sheets.clearance(from.0), self.sheets.clearance(to.0));
-        let ((Some(a), Some(b)), Some(end)) = (clearances, direct(arm, from.1, to.1)) else { return false };
-        let bounds = motion_bounds(arm, from.1, &end);
-        (0..2).all(|link| a[link] + b[link] > bounds[link])
+        let Some(end) = direct(arm, &from.q, &to.q) else { return false };
+        let bounds = motion_bounds(arm, &from.q, &end);
+        (0..2).all(|link| from.clearance[link] + to.clearance[link] > bounds[link])
     }
 
-    /// Edges from `node` to other sheets, over `cell` itself or a neighbour: to another turn of the same
-    /// posture anywhere, to the other posture near full stretch and fold.
+    /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`: to another turn of the
+    /// same posture anywhere, to the other posture near full stretch and fold.
     fn visit_across(
         &self,
         node: usize,
-        q: &Configuration<2>,
-        cell: usize,
+        (place, from): (usize, &Record),
+        (cell, direction): (usize, Option<usize>),
         visit: &mut impl FnMut(usize, f64),
     ) {
-        let (from, to) = (self.tip(node), self.scene.grid.point(cell));
-        let may_flip = self.may_flip_at(from) && self.may_flip_at(to);
         for other in self.sheets.over(cell) {
-            if self.sheets.same_sheet(node, other) || !(may_flip || self.sheets.same_posture(node, other)) {
+            if self.sheets.same_sheet(node, other) {
                 continue;
             }
-            let Some(target) = self.sheets.configuration(other) else { continue };
+            let Some((there, to)) = self.sheets.look(other) else { continue };
+            let may_flip = self.may_flip_at(from) && self.may_flip_at(&to);
+            if !(may_flip || self.sheets.same_posture(node, other)) {
+                continue;
+            }
             // One order for both ways, so that rounding cannot make an edge one-way.
-            let (a, b) = if node < other { (q, &target) } else { (&target, q) };
-            if self.is_certified(a, b) {
-                visit(other, self.cost(from, to, q, &target));
+            let (a, b) = if node < other { (from, &to) } else { (&to, from) };
+            let look = || self.is_clear_at_a_glance(a, b) || self.is_certified(&a.q, &b.q);
+            let certified = if self.sheets.several_per_posture() {
+                look()
+            } else {
+                let edge = Edge::across(direction);
+                from.is_certified(edge).unwrap_or_else(|| {
+                    let certified = look();
+                    self.sheets.keep_edge(place, edge, there, certified);
+                    certified
+                })
+            };
+            if certified {
+                visit(other, self.cost(self.tip(node), self.scene.grid.point(cell), &from.q, &to.q));
             }
         }
     }
 
-    /// Whether the posture may be changed with the tip near `tip`.
-    fn may_flip_at(&self, tip: Point) -> bool {
-        self.may_flip && self.to_edge(tip) <= FLIP_BAND * self.scene.grid.step()
+    /// Whether the posture may be changed at a node.
+    fn may_flip_at(&self, record: &Record) -> bool {
+        self.may_flip && record.to_edge <= FLIP_BAND * self.scene.grid.step()
     }
 }
 
@@ -240,22 +244,21 @@ impl Graph for PostureGraph<'_> {
             self.places[i].joined.iter().for_each(|&(other, cost)| visit(other, cost));
             return;
         }
-        let Some(q) = self.sheets.configuration(node) else { return };
-        let cell = self.sheets.cell(node);
+        let Some((place, from)) = self.sheets.look(node) else { return };
+        let (_, cell) = self.sheets.sheet_and_cell(node);
         let sheet = node - cell;
         // Both ends of a flip have to be near the edge of the reach.
-        let crosses = self.sheets.several_per_posture() || self.may_flip_at(self.scene.grid.point(cell));
+        let crosses = self.sheets.several_per_posture() || self.may_flip_at(&from);
         if crosses {
-            self.visit_across(node, &q, cell, &mut visit);
+            self.visit_across(node, (place, &from), (cell, None), &mut visit);
         }
-        for direction in 0..8 {
-            let Some(neighbour) = self.scene.grid.neighbour(cell, direction) else { continue };
-            let other = sheet + neighbour;
-            if self.sheet_edge(node, other, direction, &q) {
-                visit(other, self.scene.grid.neighbour_distance(direction));
+        for (direction, neighbour) in self.sheets.around(cell).into_iter().enumerate() {
+            let Some(neighbour) = neighbour else { continue };
+            if self.sheet_edge((place, &from), sheet + neighbour, direction) {
+                visit(sheet + neighbour, self.scene.grid.neighbour_distance(direction));
             }
             if crosses {
-                self.visit_across(node, &q, neighbour, &mut visit);
+                self.visit_across(node, (place, &from), (neighbour, Some(direction)), &mut visit);
             }
         }
         for (i, place) in self.places.iter().enumerate() {

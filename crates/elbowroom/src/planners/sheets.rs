@@ -2,7 +2,8 @@ use std::cell::RefCell;
 
 use crate::arm::{Configuration, JointLimits, Posture, TwoLinkArm};
 use crate::free_space::FreeSpace;
-use crate::geometry::angle_difference;
+use crate::geometry::{Point, angle_difference};
+use crate::grid::Grid;
 use crate::path::certified_clearance;
 use crate::scene::Scene;
 
@@ -19,6 +20,9 @@ pub(crate) struct Sheets<'a> {
     scene: &'a Scene,
     space: &'a FreeSpace,
     per_posture: usize,
+    cells: usize,
+    /// From a cell that is not at the grid's edge to its neighbours.
+    steps_around: Option<[isize; 8]>,
     /// Where in `records` each node's is, plus 1; 0 for a node never asked for.
     places: RefCell<Vec<u32>>,
     records: RefCell<Vec<Record>>,
@@ -26,28 +30,68 @@ pub(crate) struct Sheets<'a> {
 
 /// What is known of a free node.
 #[derive(Clone, Copy)]
-struct Record {
-    q: Configuration<2>,
-    clearance: Option<[f64; 2]>,
-    /// The edges to the eight neighbours on the sheet, a bit each: looked at, and certified.
-    known: u8,
-    certified: u8,
+pub(crate) struct Record {
+    pub(crate) q: Configuration<2>,
+    /// Of each link, beyond what is to be kept (m).
+    pub(crate) clearance: [f64; 2],
+    /// From the tip to the nearer edge of the reach (m).
+    pub(crate) to_edge: f64,
+    /// The edges from here, a bit each: looked at, and certified.
+    known: u32,
+    certified: u32,
+}
+
+/// An edge from a node, by where it leads.
+#[derive(Clone, Copy)]
+pub(crate) struct Edge(u32);
+
+impl Edge {
+    /// To the neighbour in `direction` on the same sheet.
+    pub(crate) fn along(direction: usize) -> Self {
+        Self(direction as u32)
+    }
+
+    /// To the other sheet, where there are two: over the neighbour in `direction`, or over the same cell.
+    pub(crate) fn across(direction: Option<usize>) -> Self {
+        Self(direction.map_or(16, |direction| 8 + direction as u32))
+    }
+
+    /// The same edge from its other end: directions go once round, so the way back is four further.
+    fn reverse(self) -> Self {
+        if self.0 == 16 { self } else { Self((self.0 & 8) | ((self.0 + 4) & 7)) }
+    }
+}
+
+impl Record {
+    /// Whether `edge` is certified; `None` if nobody looked yet.
+    pub(crate) fn is_certified(&self, edge: Edge) -> Option<bool> {
+        (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
+    }
+
+    fn keep(&mut self, edge: Edge, certified: bool) {
+        self.known |= 1 << edge.0;
+        self.certified |= u32::from(certified) << edge.0;
+    }
 }
 
 impl<'a> Sheets<'a> {
     pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace) -> Self {
         let per_posture: usize = scene.arm.joints().iter().map(|joint| turns(&joint.limits)).product();
-        let places = RefCell::new(vec![0; 2 * per_posture * scene.grid.len()]);
-        Self { scene, space, per_posture, places, records: RefCell::new(Vec::new()) }
+        let cells = scene.grid.len();
+        Self {
+            scene,
+            space,
+            per_posture,
+            cells,
+            steps_around: steps_around(&scene.grid),
+            places: RefCell::new(vec![0; 2 * per_posture * cells]),
+            records: RefCell::new(Vec::new()),
+        }
     }
 
     /// How many nodes there are: every sheet has one over every cell, free or not.
     pub(crate) fn len(&self) -> usize {
-        2 * self.per_posture * self.cells()
-    }
-
-    fn cells(&self) -> usize {
-        self.scene.grid.len()
+        2 * self.per_posture * self.cells
     }
 
     /// Whether there is more than one sheet of a posture.
@@ -55,83 +99,106 @@ impl<'a> Sheets<'a> {
         self.per_posture > 1
     }
 
-    /// The cell under `node`.
-    pub(crate) fn cell(&self, node: usize) -> usize {
-        node % self.cells()
+    /// The sheet that `node` lies on, and the cell under it.
+    pub(crate) fn sheet_and_cell(&self, node: usize) -> (usize, usize) {
+        // Mostly there are two sheets, and a division is slow.
+        if node < self.cells {
+            (0, node)
+        } else if node < 2 * self.cells {
+            (1, node - self.cells)
+        } else {
+            (node / self.cells, node % self.cells)
+        }
     }
 
     /// The nodes over `cell`, one per sheet.
     pub(crate) fn over(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
-        (cell..self.len()).step_by(self.cells())
+        (cell..self.len()).step_by(self.cells)
     }
 
     /// Whether two nodes lie on one sheet.
     pub(crate) fn same_sheet(&self, a: usize, b: usize) -> bool {
-        a / self.cells() == b / self.cells()
+        self.sheet_and_cell(a).0 == self.sheet_and_cell(b).0
     }
 
     /// Whether two nodes have one posture, whatever their turns.
     pub(crate) fn same_posture(&self, a: usize, b: usize) -> bool {
-        let nodes = self.cells() * self.per_posture;
-        a / nodes == b / nodes
+        let nodes = self.cells * self.per_posture;
+        (a < nodes) == (b < nodes)
+    }
+
+    /// The cells around `cell`, by their direction; `None` past the edge of the grid.
+    pub(crate) fn around(&self, cell: usize) -> [Option<usize>; 8] {
+        let grid = &self.scene.grid;
+        let (column, row) = grid.column_row(cell);
+        let inside = (1..grid.columns() - 1).contains(&column) && (1..grid.rows() - 1).contains(&row);
+        match &self.steps_around {
+            Some(steps) if inside => steps.map(|step| cell.checked_add_signed(step)),
+            _ => std::array::from_fn(|direction| grid.neighbour(cell, direction)),
+        }
     }
 
     /// The configuration at `node` if it is free.
     pub(crate) fn configuration(&self, node: usize) -> Option<Configuration<2>> {
-        let record = self.record(node)?;
-        Some(self.records.borrow()[record].q)
+        self.look(node).map(|(_, record)| record.q)
     }
 
-    /// Clearance of each link at `node` beyond what is to be kept (m), if it is free.
-    pub(crate) fn clearance(&self, node: usize) -> Option<[f64; 2]> {
-        let record = self.record(node)?;
-        let Record { q, clearance, .. } = self.records.borrow()[record];
-        Some(clearance.unwrap_or_else(|| {
-            let found = certified_clearance(self.scene, &q);
-            self.records.borrow_mut()[record].clearance = Some(found);
-            found
-        }))
+    /// Keeps whether the edge from the record at `from` to the one at `to` is certified.
+    pub(crate) fn keep_edge(&self, from: usize, edge: Edge, to: usize, certified: bool) {
+        let mut records = self.records.borrow_mut();
+        records[from].keep(edge, certified);
+        records[to].keep(edge.reverse(), certified);
     }
 
-    /// Whether the edge from `node` in `direction` is certified; `None` if nobody looked yet.
-    pub(crate) fn edge(&self, node: usize, direction: usize) -> Option<bool> {
-        let Some(record) = self.record(node) else { return Some(false) };
-        let record = self.records.borrow()[record];
-        (record.known >> direction & 1 == 1).then_some(record.certified >> direction & 1 == 1)
-    }
-
-    /// Keeps whether the edge from `node` in `direction` is certified.
-    pub(crate) fn keep_edge(&self, node: usize, direction: usize, certified: bool) {
-        if let Some(record) = self.record(node) {
-            let record = &mut self.records.borrow_mut()[record];
-            record.known |= 1 << direction;
-            record.certified |= u8::from(certified) << direction;
+    /// What is known of `node`, and where that is kept; `None` if the node is not free.
+    pub(crate) fn look(&self, node: usize) -> Option<(usize, Record)> {
+        let place = self.places.borrow()[node] as usize;
+        if let Some(place) = place.checked_sub(1) {
+            return Some((place, self.records.borrow()[place]));
         }
+        let record = self.work_out(node)?;
+        let mut records = self.records.borrow_mut();
+        records.push(record);
+        self.places.borrow_mut()[node] = records.len() as u32;
+        Some((records.len() - 1, record))
     }
 
-    /// Where the record of `node` is, which is made if need be; `None` if the node is not free.
-    fn record(&self, node: usize) -> Option<usize> {
-        let cells = self.cells();
-        let (sheet, cell) = (node / cells, node % cells);
+    fn work_out(&self, node: usize) -> Option<Record> {
+        let (sheet, cell) = self.sheet_and_cell(node);
         let posture = Posture::ALL[sheet / self.per_posture];
         if !self.space.map(posture).is_free(cell) {
             return None;
         }
-        let place = self.places.borrow()[node] as usize;
-        if let Some(record) = place.checked_sub(1) {
-            return Some(record);
-        }
         let arm = &self.scene.arm;
-        let q = arm.inverse_unlimited(self.scene.grid.point(cell), posture).ok()?;
+        let tip = self.scene.grid.point(cell);
+        let q = arm.inverse_unlimited(tip, posture).ok()?;
         let [first, second] = arm.joints().map(|joint| joint.limits);
         let mut turned =
             first.places(q.0[0]).flat_map(|q1| second.places(q.0[1]).map(move |q2| Configuration([q1, q2])));
         let q = turned.nth(sheet % self.per_posture)?;
-        let mut records = self.records.borrow_mut();
-        records.push(Record { q, clearance: None, known: 0, certified: 0 });
-        self.places.borrow_mut()[node] = records.len() as u32;
-        Some(records.len() - 1)
+        let clearance = certified_clearance(self.scene, &q);
+        Some(Record { q, clearance, to_edge: to_edge(arm, tip), known: 0, certified: 0 })
     }
+}
+
+/// From a cell to its neighbours, where the grid has a cell with all eight.
+fn steps_around(grid: &Grid) -> Option<[isize; 8]> {
+    if grid.columns() < 3 || grid.rows() < 3 {
+        return None;
+    }
+    let inner = grid.cell(1, 1);
+    let mut steps = [0; 8];
+    for (direction, step) in steps.iter_mut().enumerate() {
+        *step = grid.neighbour(inner, direction)? as isize - inner as isize;
+    }
+    Some(steps)
+}
+
+/// From `tip` to the nearer edge of the reach (m).
+pub(crate) fn to_edge(arm: &TwoLinkArm, tip: Point) -> f64 {
+    let [nearest, farthest] = arm.reach();
+    let distance = tip.distance(arm.base());
+    (farthest - distance).min(distance - nearest).max(0.0)
 }
 
 /// How many sheets a joint needs for one direction of its link.

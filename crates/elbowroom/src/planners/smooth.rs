@@ -5,7 +5,7 @@ use super::settings::Pace;
 use crate::path::{JointPath, simplify};
 use crate::scene::Scene;
 use crate::trajectory::{
-    Motion, MotionError, Piece, SpeedLimits, Via, fastest_durations, quintic_through, rescaled, stretch,
+    Motion, MotionError, SpeedLimits, Via, fastest_durations, quintic_through, rescaled, stretch,
 };
 use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 
@@ -75,7 +75,8 @@ pub(crate) fn smooth(
             return Err(SmoothError::Stopped);
         }
         let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: places[i], stop: stops[i] }).collect();
-        let motion = timed(&vias, limits, stated, pace)?;
+        let durations = durations_of(&vias, limits, stated, pace)?;
+        let motion = Motion::new(quintic_through(&vias, &durations)).map_err(SmoothError::Motion)?;
         let keep_going = || monitor.keep_going();
         let verdict = match Trajectory::certify_until(scene, motion, &VerifySettings::default(), &keep_going)
         {
@@ -86,7 +87,7 @@ pub(crate) fn smooth(
             }
             Err(verdict) => verdict,
         };
-        let refused = refused_pieces(&verdict, &durations_of(&vias, limits, stated, pace)?)?;
+        let refused = refused_pieces(&verdict, &durations)?;
         let before = (chosen.len(), stops.iter().filter(|stop| **stop).count());
         for &piece in refused.iter().rev() {
             let (from, to) = (chosen[piece], chosen[piece + 1]);
@@ -127,16 +128,6 @@ fn durations_of(
         return Ok(on_ticks);
     }
     Ok(durations.iter().map(|duration| duration * (asked / fastest)).collect())
-}
-
-fn timed(
-    vias: &[Via],
-    limits: &[SpeedLimits; 2],
-    stated: &[SpeedLimits; 2],
-    pace: Pace,
-) -> Result<Motion<2>, SmoothError> {
-    let pieces: Vec<Piece<2>> = quintic_through(vias, &durations_of(vias, limits, stated, pace)?);
-    Motion::new(pieces).map_err(SmoothError::Motion)
 }
 
 /// The pieces that the verifier's complaints fall on, in order.

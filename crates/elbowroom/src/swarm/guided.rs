@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 use thiserror::Error;
 
+use super::views::{Successor, Terrain, Views};
 use crate::search::Graph;
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
@@ -98,18 +99,6 @@ impl GuidedSwarmSettings {
     }
 }
 
-/// What the swarm sees of the place it walks through.
-pub struct Terrain<'a, G> {
-    /// Neighbours and step costs.
-    pub graph: &'a G,
-    /// Exact cost-to-go of a node (m); infinite where there is no way.
-    pub cost_to_go: &'a dyn Fn(usize) -> f64,
-    /// Straight distance from a node to the goal (m).
-    pub distance: &'a dyn Fn(usize) -> f64,
-    /// Whether a node is the goal.
-    pub is_goal: &'a dyn Fn(usize) -> bool,
-}
-
 /// The candidate paths of least cost, and those that cost hardly more.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnPaths {
@@ -146,7 +135,7 @@ pub fn draw_paths<G: Graph>(
         dead_points: 0,
     };
     let mut known = HashSet::new();
-    let mut visited = Visited { by: vec![0; terrain.graph.len()], walker: 0 };
+    let mut views = Views::new(terrain);
     let within = |cost: f64, best: f64| cost <= best * (1.0 + settings.keep_within.max(EQUAL_COST));
     for index in 0..settings.candidates {
         if !keep_going() {
@@ -154,9 +143,8 @@ pub fn draw_paths<G: Graph>(
         }
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         rng.set_stream(index as u64);
-        let walk = Walk { terrain, settings, inertia: settings.inertia(index) };
-        visited.walker += 1;
-        let candidate = walk.candidate(start, &mut visited, &mut rng)?;
+        let walk = Walk { settings, inertia: settings.inertia(index) };
+        let candidate = walk.candidate(start, &mut views, &mut rng)?;
         drawn.candidates += 1;
         drawn.dead_points += candidate.dead_points;
         drawn.cost = drawn.cost.min(candidate.cost);
@@ -172,25 +160,8 @@ pub fn draw_paths<G: Graph>(
     Some(drawn)
 }
 
-/// Which candidate was last at each node: one array for all of them.
-struct Visited {
-    by: Vec<u32>,
-    walker: u32,
-}
-
-impl Visited {
-    fn mark(&mut self, node: usize) {
-        self.by[node] = self.walker;
-    }
-
-    fn contains(&self, node: usize) -> bool {
-        self.by[node] == self.walker
-    }
-}
-
 /// One candidate in the making.
-struct Walk<'a, G> {
-    terrain: &'a Terrain<'a, G>,
+struct Walk<'a> {
     settings: &'a GuidedSwarmSettings,
     inertia: f64,
 }
@@ -201,36 +172,32 @@ struct Candidate {
     dead_points: usize,
 }
 
-/// A place of the walk: the node, the velocity it was chosen with, and the cost so far.
+/// A place of the walk, the velocity it was chosen with, and the cost so far.
 #[derive(Clone, Copy)]
 struct Footprint {
-    node: usize,
+    spot: usize,
     velocity: f64,
     cost: f64,
 }
 
-impl<G: Graph> Walk<'_, G> {
+impl Walk<'_> {
     /// Walks to the goal, stepping back from dead points; `None` if every way is used up.
-    fn candidate(&self, start: usize, visited: &mut Visited, rng: &mut ChaCha8Rng) -> Option<Candidate> {
-        visited.mark(start);
-        let mut trail = vec![Footprint { node: start, velocity: 0.0, cost: 0.0 }];
-        let mut open = Vec::with_capacity(8);
+    fn candidate<G: Graph>(
+        &self,
+        start: usize,
+        views: &mut Views<'_, '_, G>,
+        rng: &mut ChaCha8Rng,
+    ) -> Option<Candidate> {
+        let mut trail = vec![Footprint { spot: views.begin(start), velocity: 0.0, cost: 0.0 }];
         let mut dead_points = 0;
         while let Some(&here) = trail.last() {
-            if (self.terrain.is_goal)(here.node) {
-                let nodes = trail.iter().map(|footprint| footprint.node).collect();
+            if views.is_goal(here.spot) {
+                let nodes = trail.iter().map(|footprint| views.node(footprint.spot)).collect();
                 return Some(Candidate { nodes, cost: here.cost, dead_points });
             }
-            open.clear();
-            self.terrain.graph.neighbours(here.node, |node, cost| {
-                let position = (self.terrain.cost_to_go)(node);
-                if cost.is_finite() && position.is_finite() && !visited.contains(node) {
-                    open.push((node, cost, position));
-                }
-            });
-            match self.step(&here, &open, rng) {
+            match self.step(&here, views.unvisited(here.spot), rng) {
                 Some(next) => {
-                    visited.mark(next.node);
+                    views.visit(next.spot);
                     trail.push(next);
                 }
                 None => {
@@ -243,20 +210,20 @@ impl<G: Graph> Walk<'_, G> {
     }
 
     /// The neighbour that the velocities choose: eq. (5) for each, then the least `position - velocity`.
-    fn step(&self, here: &Footprint, open: &[(usize, f64, f64)], rng: &mut ChaCha8Rng) -> Option<Footprint> {
-        let least = open.iter().map(|&(_, _, position)| position).fold(f64::INFINITY, f64::min);
+    fn step(&self, here: &Footprint, open: &[Successor], rng: &mut ChaCha8Rng) -> Option<Footprint> {
+        let least = open.iter().map(|successor| successor.position).fold(f64::INFINITY, f64::min);
         let mut chosen: Option<(f64, Footprint)> = None;
-        for &(node, cost, position) in open {
+        for &Successor { spot, cost, position, distance } in open {
             let (r1, r2) = (unit(rng), unit(rng));
             let pull = self.settings.c_dstar * r1 * (least - position)
-                + self.settings.c_euclid * r2 * ((self.terrain.distance)(node) - position);
+                + self.settings.c_euclid * r2 * (distance - position);
             let mut velocity = self.inertia * here.velocity + pull;
             if let Some(v_max) = self.settings.v_max {
                 velocity = velocity.clamp(-v_max, v_max);
             }
             let rank = position - velocity;
             if chosen.is_none_or(|(best, _)| rank < best) {
-                chosen = Some((rank, Footprint { node, velocity, cost: here.cost + cost }));
+                chosen = Some((rank, Footprint { spot: spot as usize, velocity, cost: here.cost + cost }));
             }
         }
         chosen.map(|(_, footprint)| footprint)

@@ -1,5 +1,5 @@
 use super::Piece;
-use super::peak::{derivative, peak};
+use super::peak::peaks;
 use super::spline::{Via, durations_by_length, quintic_through};
 
 /// Rounds of evening out the pieces; more gain less than a percent.
@@ -98,12 +98,8 @@ pub fn stretch(piece: &Piece<2>, limits: &[SpeedLimits; 2]) -> f64 {
         .iter()
         .zip(limits)
         .map(|(position, limit)| {
-            let velocity = derivative(position);
-            let acceleration = derivative(&velocity);
-            let jerk = derivative(&acceleration);
-            let speed = peak(&velocity, piece.duration) / limit.velocity;
-            let push = peak(&acceleration, piece.duration) / limit.acceleration;
-            let jolt = peak(&jerk, piece.duration) / limit.jerk;
+            let [speed, push, jolt] = peaks(position, piece.duration);
+            let (speed, push, jolt) = (speed / limit.velocity, push / limit.acceleration, jolt / limit.jerk);
             speed.max(push.sqrt()).max(libm::cbrt(jolt))
         })
         .fold(0.0, f64::max)
