@@ -17,22 +17,43 @@ use crate::verify::images;
 /// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
 const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 
+/// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
+/// to be looked for, unless a gap is asked for.
+const NEAR_ENOUGH: f64 = 0.004;
+
 /// Longest turn of a straight line of the tip, in grid steps.
 const TIP_TURN: f64 = 0.5;
 
 /// Two turns one after the other are one where the place between them is this near to the straight one (rad).
 const STRAIGHT: f64 = 1e-9;
 
-/// Taut paths over the joints that stay `distance` (rad) away from what is forbidden, by objective: joint travel, or
-/// time with each joint at its greatest speed.
+/// How closely paths over the joints are looked for.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Search {
+    /// How far they stay away from what is forbidden (rad).
+    pub(crate) distance: f64,
+    /// Joint travel (rad) with which no other path is looked for.
+    pub(crate) enough: Option<f64>,
+}
+
+impl Search {
+    /// Paths `distance` (rad) away; with a lower bound of joint travel (rad) one that comes near to it is enough.
+    pub(crate) fn new(distance: f64, bound: Option<f64>) -> Self {
+        Self { distance, enough: bound.map(|bound| (1.0 + NEAR_ENOUGH) * bound) }
+    }
+}
+
+/// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with each joint at
+/// its greatest speed.
 pub(crate) fn over_joints(
     scene: &Scene,
     problem: &Problem,
     objective: Objective,
     limits: &[SpeedLimits; 2],
-    distance: f64,
+    search: Search,
     monitor: &impl Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
+    let Search { distance, enough } = search;
     let weights = match objective {
         Objective::Tip | Objective::Joint => [1.0; 2],
         Objective::Time => limits.map(|limit| 1.0 / limit.velocity),
@@ -45,8 +66,12 @@ pub(crate) fn over_joints(
         monitor.stage(Stage::JointPath);
         let pull = Pull { scene, plane: Plane::Joints(weights), margin };
         let path = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
+        let is_enough = enough.is_some_and(|enough| path.length() <= enough);
         if !found.contains(&path) {
             found.push(path);
+        }
+        if is_enough {
+            break;
         }
     }
     if found.is_empty() {

@@ -3,7 +3,7 @@
 use super::bound::{Proved, prove};
 use super::choose::shortlist;
 use super::limits::{AssumedLimit, motion_limits, stated_limits};
-use super::optimal::{over_joints, over_tips};
+use super::optimal::{Search, over_joints, over_tips};
 use super::posture_graph::PostureGraph;
 use super::problem::Problem;
 use super::settings::{Objective, Pace, PlanSettings, Planner};
@@ -36,6 +36,9 @@ const TAUT_TOLERANCE: f64 = 0.1;
 
 /// How much less a path has to cost than its smooth motion for the arm to stop at its corners, as a share.
 const WORTH_STOPPING: f64 = 0.005;
+
+/// How much closer to the path a motion is tried before one that stops at corners, as a share of the tolerance.
+const CLOSER: f64 = 0.1;
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
@@ -112,7 +115,7 @@ impl<M: Monitor> Work<'_, M> {
                         &self.problem,
                         Objective::Joint,
                         &self.limits,
-                        distance,
+                        Search::new(distance, None),
                         self.monitor,
                     );
                     match off_grid {
@@ -135,12 +138,18 @@ impl<M: Monitor> Work<'_, M> {
         for distance in DISTANCES {
             let step = self.bound(distance).and_then(|proved| {
                 bound = [bound, proved].into_iter().flatten().reduce(f64::max);
+                // Whoever asks for a gap wants the best of several.
+                let near = match (self.settings.objective, self.settings.gap) {
+                    (Objective::Joint, None) => bound,
+                    _ => None,
+                };
+                let search = Search::new(distance, near);
                 let found = taut(
                     self.scene,
                     &self.problem,
                     self.settings.objective,
                     &self.limits,
-                    distance,
+                    search,
                     self.monitor,
                 )?;
                 self.motion_along(found, bound)
@@ -176,7 +185,11 @@ impl<M: Monitor> Work<'_, M> {
             let smoothed = match smooth(flowing) {
                 // Straight turns are refused only where the duration is too short for so many stops.
                 Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
-                    smooth(Style::StopToStop).unwrap_or(smoothed)
+                    // Closer to the path first, then on it with stops.
+                    match smooth(Style::Flowing { tolerance: CLOSER * tolerance }) {
+                        Ok(closer) if !is_worth_stopping(scene, settings, &joint_path, &closer) => closer,
+                        _ => smooth(Style::StopToStop).unwrap_or(smoothed),
+                    }
                 }
                 Ok(smoothed) => smoothed,
                 Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
@@ -231,7 +244,7 @@ fn taut(
     problem: &Problem,
     objective: Objective,
     limits: &[SpeedLimits; 2],
-    distance: f64,
+    search: Search,
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
     let on_grid = || {
@@ -243,7 +256,7 @@ fn taut(
         }
     };
     let over_joints = || -> Result<Vec<Candidate>, PlanError> {
-        let paths = over_joints(scene, problem, objective, limits, distance, monitor)?;
+        let paths = over_joints(scene, problem, objective, limits, search, monitor)?;
         Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
     };
     let candidates = match objective {

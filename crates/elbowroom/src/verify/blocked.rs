@@ -82,13 +82,17 @@ impl<'a> Blocked<'a> {
         }
         let mut best = (f64::NEG_INFINITY, None);
         let mut deepest = f64::NEG_INFINITY;
-        for (link, bound) in bounds.into_iter().enumerate() {
+        // Where the first link is clear all along, as between most walls, the second is what touches.
+        for link in [1, 0] {
             for body in 0..self.bodies.len() {
                 let depth = self.depth(&axes, link, body);
                 deepest = deepest.max(depth);
-                if depth - bound > best.0 {
-                    best = (depth - bound, Some((link, body)));
+                if depth - bounds[link] > best.0 {
+                    best = (depth - bounds[link], Some((link, body)));
                 }
+            }
+            if best.0 > 0.0 {
+                break;
             }
         }
         *witness = best.1;
