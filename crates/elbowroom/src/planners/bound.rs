@@ -83,7 +83,7 @@ fn tip_bound(
     scene: &Scene,
     problem: &Problem,
     distance: f64,
-    keep_going: &dyn Fn() -> bool,
+    keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<f64, PlanError> {
     let walls = Walls { inside: true, distance };
     let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
@@ -117,7 +117,7 @@ fn with_walls(
     problem: &Problem,
     measure: Measure,
     distance: f64,
-    keep_going: &dyn Fn() -> bool,
+    keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<OverJoints, BoundError> {
     let walls = Walls { inside: true, distance };
     let mut least = f64::INFINITY;

@@ -19,7 +19,7 @@ const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 
 /// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
 /// to be looked for, unless a gap is asked for.
-const NEAR_ENOUGH: f64 = 0.004;
+const NEAR_ENOUGH: f64 = 0.007;
 
 /// Longest turn of a straight line of the tip, in grid steps.
 const TIP_TURN: f64 = 0.5;
@@ -65,13 +65,15 @@ pub(crate) fn over_joints(
         let Some(path) = shortest(scene, problem, measure, margin, distance, monitor)? else { continue };
         monitor.stage(Stage::JointPath);
         let pull = Pull { scene, plane: Plane::Joints(weights), margin };
-        let path = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
-        let is_enough = enough.is_some_and(|enough| path.length() <= enough);
-        if !found.contains(&path) {
-            found.push(path);
+        let thinned = pull.thinned(&path);
+        if enough.is_some_and(|enough| thinned.length() <= enough) {
+            return Ok(vec![thinned]);
         }
-        if is_enough {
-            break;
+        let taut = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
+        for path in [thinned, taut] {
+            if !found.contains(&path) {
+                found.push(path);
+            }
         }
     }
     if found.is_empty() {

@@ -47,6 +47,10 @@ const SAME_COST: f64 = 1e-9;
 /// after the other until there is a path, or a proof that there is none.
 const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
 
+/// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
+/// more to prove than to look past.
+const WALLS_DEEPER: f64 = 2.0;
+
 /// The same for planners that do not go by it: a bound that costs a millisecond or two.
 const COARSE_DISTANCE: f64 = 1e-2;
 
@@ -136,7 +140,7 @@ impl<M: Monitor> Work<'_, M> {
         let mut bound = None;
         let mut last = PlanError::Stopped;
         for distance in DISTANCES {
-            let step = self.bound(distance).and_then(|proved| {
+            let step = self.bound(WALLS_DEEPER * distance).and_then(|proved| {
                 bound = [bound, proved].into_iter().flatten().reduce(f64::max);
                 // Whoever asks for a gap wants the best of several.
                 let near = match (self.settings.objective, self.settings.gap) {

@@ -64,6 +64,13 @@ impl Pull<'_> {
         Some(JointPath(places))
     }
 
+    /// `path`, taut already, without the corners that can be left out.
+    pub(crate) fn thinned(&self, path: &JointPath) -> JointPath {
+        let mut corners = self.galloped(&path.0);
+        self.leave_out(&mut corners);
+        JointPath(corners)
+    }
+
     fn length(&self, corners: &[Configuration<2>]) -> f64 {
         corners.windows(2).map(|pair| self.distance(&pair[0], &pair[1])).sum()
     }

@@ -89,7 +89,7 @@ pub fn bound_over_joints(
     scene: &Scene,
     claim: &OpenJoints<'_>,
     measure: Measure,
-    keep_going: &dyn Fn() -> bool,
+    keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
     for (q, place) in claim.starts.iter().chain(claim.goals) {
         if !stands_at(scene, q, place, claim.surface) {
@@ -99,21 +99,13 @@ pub fn bound_over_joints(
     let surface = claim.surface;
     let reached = surface.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
     let blocked = Blocked::new(scene, claim.margin);
-    for cell in (0..surface.len()).filter(|&cell| reached[cell]) {
-        if !keep_going() {
-            return Err(BoundError::Stopped);
-        }
-        let sides = surface.sides(cell);
-        for (i, side) in sides.iter().enumerate().filter(|(_, side)| side.across.is_none()) {
-            let (from, to) = (side.from, sides[(i + 1) % sides.len()].from);
-            let ends = [from, to].map(|p| Configuration([p.x, p.y]));
-            let stands = at_stop(scene, from, to)
-                || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)
-                || blocked.all_along(&ends[0], &ends[1]);
-            if !stands {
-                return Err(BoundError::Wall { from: ends[0].0, to: ends[1].0 });
-            }
-        }
+    let stands = |from: Point, to: Point| {
+        at_stop(scene, from, to)
+            || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)
+            || blocked.all_along(&Configuration([from.x, from.y]), &Configuration([to.x, to.y]))
+    };
+    if let Some([from, to]) = first_gap(surface, &|cell| reached[cell], &stands, keep_going)? {
+        return Err(BoundError::Wall { from: [from.x, from.y], to: [to.x, to.y] });
     }
     let places =
         |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
@@ -148,7 +140,7 @@ pub struct OpenTips<'a> {
 pub fn bound_over_tips(
     scene: &Scene,
     claim: &OpenTips<'_>,
-    keep_going: &dyn Fn() -> bool,
+    keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
     let arm = &scene.arm;
     let (surface, [_, reach]) = (claim.surface, arm.reach());
@@ -167,21 +159,12 @@ pub fn bound_over_tips(
         let (a, b) = (a - arm.base(), b - arm.base());
         beyond(a.x, b.x) || beyond(a.y, b.y)
     };
-    for cell in 0..surface.len() {
-        if !keep_going() {
-            return Err(BoundError::Stopped);
-        }
-        let sides = surface.sides(cell);
-        for (i, side) in sides.iter().enumerate().filter(|(_, side)| side.across.is_none()) {
-            let (from, to) = (side.from, sides[(i + 1) % sides.len()].from);
-            // A disc holds the line between two of its places.
-            let stands = out_of_reach(from, to)
-                || (in_hole(from) && in_hole(to))
-                || blocked.tip_all_along(from, to, 0);
-            if !stands {
-                return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
-            }
-        }
+    let stands = |from: Point, to: Point| {
+        // A disc holds the line between two of its places.
+        out_of_reach(from, to) || (in_hole(from) && in_hole(to)) || blocked.tip_all_along(from, to, 0)
+    };
+    if let Some([from, to]) = first_gap(surface, &|_| true, &stands, keep_going)? {
+        return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
     }
     let places =
         |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
@@ -196,6 +179,35 @@ pub fn bound_over_tips(
         None if keep_going() => Ok(Reachability::Parted),
         None => Err(BoundError::Stopped),
     }
+}
+
+/// The first wall of the cells that matter that does not stand, looked for on all cores where the pool is compiled in.
+fn first_gap(
+    surface: &Surface,
+    matters: &(dyn Fn(usize) -> bool + Sync),
+    stands: &(dyn Fn(Point, Point) -> bool + Sync),
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<[Point; 2]>, BoundError> {
+    let gap_of = |cell: usize| {
+        if !matters(cell) {
+            return None;
+        }
+        if !keep_going() {
+            return Some(Err(BoundError::Stopped));
+        }
+        let sides = surface.sides(cell);
+        let walls = (0..sides.len()).filter(|&i| sides[i].across.is_none());
+        let mut lines = walls.map(|i| [sides[i].from, sides[(i + 1) % sides.len()].from]);
+        lines.find(|[from, to]| !stands(*from, *to)).map(Ok)
+    };
+    #[cfg(feature = "parallel")]
+    let found = {
+        use rayon::prelude::*;
+        (0..surface.len()).into_par_iter().find_map_first(gap_of)
+    };
+    #[cfg(not(feature = "parallel"))]
+    let found = (0..surface.len()).find_map(gap_of);
+    found.transpose()
 }
 
 /// How near to the base the tip can come (m), by the links and where the second joint may be.
