@@ -22,11 +22,13 @@ test: setup
 
 # The tables of docs/ that our own planners make.
 tables: setup
-	$(BIN)/python bench/objectives.py
+	$(BIN)/python -m bench.objectives
+	$(BIN)/python -m bench.bounds
 
 # Safety at length: 100,000 random worlds, a million edges, a million pieces; about a quarter of an hour on two cores.
 campaign:
 	cargo test --release -p elbowroom --test campaign -- --ignored --nocapture --test-threads 1
+	cargo test --release -p elbowroom --test bound -- --ignored --nocapture
 
 # elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about a quarter of an hour.
 # A peer that does not install is a row that says so. OMPL in C++ takes part where libompl-dev and cmake are installed.

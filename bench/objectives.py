@@ -15,19 +15,6 @@ OBJECTIVES: tuple[tuple[Objective, str, float], ...] = (("tip", "cm", 100.0), ("
 
 STOPS = er.Joint(min=0.0, max=math.tau)
 
-BEST_KNOWN = {
-    ("paper-standin", "first", "continuous"): 3.1415,
-    ("paper-standin", "second", "continuous"): 3.4454,
-    ("paper-standin", "first", "0 to 360"): 3.1415,
-    ("paper-standin", "second", "0 to 360"): 4.8746,
-    ("narrow", "first", "continuous"): 4.1906,
-    ("narrow", "second", "continuous"): 3.5240,
-    ("narrow", "first", "0 to 360"): 4.9238,
-    ("narrow", "second", "0 to 360"): 5.7470,
-}
-"""Joint travel (rad) found by a 0.2 degree joint grid with shortcuts: a reference, not a proved optimum."""
-
-
 @dataclass(frozen=True)
 class Case:
     """A scene with its joint 1 as it is, or between stops."""
@@ -68,23 +55,6 @@ def gains(seeds: int) -> list[str]:
     return rows
 
 
-def lengths() -> list[str]:
-    """Return the table of tip and joint lengths beside the best joint lengths known."""
-    rows = [
-        "| scene | joint 1 | task | tip travel (cm) | joint travel (rad) | best joint travel known (rad) |",
-        "|---|---|---|---|---|---|",
-    ]
-    for case in cases():
-        for task in case.scene.tasks:
-            known = BEST_KNOWN.get((case.name, task, case.kind))
-            if known is None:
-                continue
-            tip = er.plan(case.scene, task=task, planner="optimal", objective="tip").cost
-            joint = er.plan(case.scene, task=task, planner="optimal", objective="joint").cost
-            rows.append(f"| {case.name} | {case.kind} | {task} | {tip * 100:.2f} | {joint:.4f} | {known:.4f} |")
-    return rows
-
-
 def main() -> None:
     """Write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -101,14 +71,6 @@ def main() -> None:
         "assumed.",
         "",
         *gains(options.seeds),
-        "",
-        "## Lengths of `optimal`",
-        "",
-        "`optimal` leaves the grid and pulls its paths taut: over the joints, or over the tip for tip travel. The best",
-        "joint travel known comes from a 0.2 degree joint grid with shortcuts: a reference, not a proved optimum. How",
-        "far a plan is from the best possible is not proved yet: `lower_bound` and `gap` are null.",
-        "",
-        *lengths(),
     ]
     options.out.parent.mkdir(parents=True, exist_ok=True)
     options.out.write_text("\n".join(text) + "\n", encoding="utf-8")

@@ -17,6 +17,9 @@ use crate::verify::images;
 /// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
 const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 
+/// The same where time counts: wide berths have soft bends.
+const MARGINS_FOR_TIME: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
+
 /// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
 /// to be looked for, unless a gap is asked for.
 const NEAR_ENOUGH: f64 = 0.007;
@@ -60,7 +63,8 @@ pub(crate) fn over_joints(
     };
     let measure = measure_of(objective, limits);
     let mut found: Vec<JointPath> = Vec::new();
-    for margin in MARGINS {
+    let margins: &[f64] = if objective == Objective::Time { &MARGINS_FOR_TIME } else { &MARGINS };
+    for &margin in margins {
         monitor.stage(Stage::CostToGo);
         let Some(path) = shortest(scene, problem, measure, margin, distance, monitor)? else { continue };
         monitor.stage(Stage::JointPath);
