@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
-use elbowroom::search::{Dstar, GoalError, Graph, NodeState, Progress, Until, dijkstra};
+use elbowroom::search::{Dstar, GoalError, Graph, Lattice, NodeState, Progress, Until, dijkstra, wavefront};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -11,9 +11,9 @@ const ALL: usize = usize::MAX;
 /// A graph whose costs can be changed.
 enum World {
     /// Eight neighbours, corners may be cut; a step costs its length times the mean weight of its two cells.
-    Cells { columns: usize, weights: Vec<f64>, blocked: Vec<bool> },
+    Cells { columns: usize, weights: Vec<f64>, blocked: Vec<bool>, usual_step: Option<f64> },
     /// Any graph: each node's neighbours with the number of the edge, and the cost of each edge.
-    Network { neighbours: Vec<Vec<(usize, usize)>>, costs: Vec<f64> },
+    Network { neighbours: Vec<Vec<(usize, usize)>>, costs: Vec<f64>, usual_step: Option<f64> },
 }
 
 impl Graph for World {
@@ -26,7 +26,7 @@ impl Graph for World {
 
     fn neighbours(&self, node: usize, mut visit: impl FnMut(usize, f64)) {
         match self {
-            Self::Cells { columns, weights, blocked } => {
+            Self::Cells { columns, weights, blocked, .. } => {
                 let (x, y) = (node % columns, node / columns);
                 let rows = weights.len() / columns;
                 for row in y.saturating_sub(1)..=(y + 1).min(rows - 1) {
@@ -42,12 +42,17 @@ impl Graph for World {
                     }
                 }
             }
-            Self::Network { neighbours, costs } => {
+            Self::Network { neighbours, costs, .. } => {
                 for &(other, edge) in &neighbours[node] {
                     visit(other, costs[edge]);
                 }
             }
         }
+    }
+
+    fn usual_step(&self) -> Option<f64> {
+        let (Self::Cells { usual_step, .. } | Self::Network { usual_step, .. }) = self;
+        *usual_step
     }
 }
 
@@ -75,6 +80,16 @@ impl Random {
         if self.chance(0.5) { (1 + self.below(4)) as f64 } else { libm::exp(6.9 * (2.0 * self.unit() - 1.0)) }
     }
 
+    /// None, a step that is usual, or any, however wrong: it must change nothing.
+    fn usual_step(&mut self) -> Option<f64> {
+        match self.below(6) {
+            0..2 => None,
+            2..4 => Some(1.0),
+            4 => Some(libm::exp(60.0 * (2.0 * self.unit() - 1.0))),
+            _ => Some([0.0, -1.0, 1e-300, 5e-324, 1e300, f64::INFINITY, f64::NAN][self.below(7)]),
+        }
+    }
+
     fn cells(&mut self, columns: usize, rows: usize) -> World {
         let (density, weighted) = (0.7 * self.unit(), self.chance(0.3));
         let len = columns * rows;
@@ -82,16 +97,21 @@ impl Random {
             columns,
             weights: (0..len).map(|_| if weighted { self.cost() } else { 1.0 }).collect(),
             blocked: (0..len).map(|_| self.chance(density)).collect(),
+            usual_step: self.usual_step(),
         }
     }
 
     fn network(&mut self, len: usize) -> World {
-        let mut world = World::Network { neighbours: vec![Vec::new(); len], costs: Vec::new() };
+        let mut world = World::Network {
+            neighbours: vec![Vec::new(); len],
+            costs: Vec::new(),
+            usual_step: self.usual_step(),
+        };
         let (edges, blocked) = (self.below(3 * len), 0.5 * self.unit());
         for _ in 0..edges {
             let (a, b) = (self.below(len), self.below(len));
             let cost = if self.chance(blocked) { f64::INFINITY } else { self.cost() };
-            let World::Network { neighbours, costs } = &mut world else { unreachable!() };
+            let World::Network { neighbours, costs, .. } = &mut world else { unreachable!() };
             if a != b && neighbours[a].iter().all(|&(other, _)| other != b) {
                 neighbours[a].push((b, costs.len()));
                 neighbours[b].push((a, costs.len()));
@@ -146,7 +166,7 @@ impl Random {
                 }
                 nodes
             }
-            World::Network { neighbours, costs } => {
+            World::Network { neighbours, costs, .. } => {
                 let mut ends = Vec::new();
                 for a in nodes {
                     for &(b, edge) in &neighbours[a] {
@@ -284,6 +304,82 @@ fn equals_dijkstra_on_random_maps_after_every_change() {
     assert!(counts.iter().all(|&count| count > 1_500), "cases that occurred: {counts:?}");
 }
 
+fn with_usual_step(mut world: World, step: Option<f64>) -> World {
+    let (World::Cells { usual_step, .. } | World::Network { usual_step, .. }) = &mut world;
+    *usual_step = step;
+    world
+}
+
+#[test]
+fn buckets_give_the_field_and_the_pointers_of_the_heap() {
+    let mut random = Random::new(4);
+    for _ in 0..5_000 {
+        let mut world = random.world();
+        let goals = distinct_goals(&mut random, world.len());
+        let judge = dijkstra(&world, &goals).unwrap();
+        assert!(
+            wavefront(&world, &goals)
+                .unwrap()
+                .iter()
+                .map(|c| c.to_bits())
+                .eq(judge.iter().map(|c| c.to_bits()))
+        );
+
+        let expanded = |world: &World| {
+            let mut dstar = Dstar::new(world.len());
+            goals.iter().for_each(|&(node, cost)| dstar.insert_goal(node, cost).unwrap());
+            assert_eq!(dstar.expand(world, Until::WholeField, ALL), Progress::Done);
+            dstar
+        };
+        let by_buckets = expanded(&world);
+        world = with_usual_step(world, None);
+        let by_heap = expanded(&world);
+        assert_eq!(by_buckets.field(), by_heap.field());
+        for node in 0..world.len() {
+            assert_eq!(by_buckets.next(node), by_heap.next(node));
+            assert_eq!(by_buckets.state(node), by_heap.state(node));
+        }
+    }
+}
+
+/// The neighbours of a node and the bits of what the steps there cost, in the order of their numbers.
+fn seen_from(graph: &impl Graph, node: usize) -> Vec<(usize, u64)> {
+    let mut seen = Vec::new();
+    graph.neighbours(node, |other, cost| seen.push((other, cost.to_bits())));
+    seen.sort_unstable();
+    seen
+}
+
+#[test]
+fn a_lattice_is_a_map_of_cells() {
+    let mut random = Random::new(5);
+    for _ in 0..300 {
+        let (columns, rows) = (1 + random.below(9), 1 + random.below(9));
+        let density = random.unit();
+        let free: Vec<bool> = (0..columns * rows).map(|_| random.chance(density)).collect();
+        let mut world = World::Cells {
+            columns,
+            weights: vec![1.0; free.len()],
+            blocked: free.iter().map(|free| !free).collect(),
+            usual_step: None,
+        };
+        let mut lattice = Lattice::new(columns, 1.0, free);
+        for _ in 0..5 {
+            for node in 0..world.len() {
+                assert_eq!(seen_from(&lattice, node), seen_from(&world, node));
+            }
+            let (node, blocked) = (random.below(world.len()), random.chance(0.5));
+            set_blocked(&mut world, &[node], blocked);
+            lattice.set_free(node, !blocked);
+            assert_eq!(lattice.is_free(node), !blocked);
+        }
+    }
+    assert!(Lattice::new(0, 1.0, vec![true; 3]).is_empty());
+    let mut row = Lattice::new(2, 1.0, vec![true; 3]);
+    row.set_free(2, false);
+    assert!(row.len() == 2 && !row.is_free(2));
+}
+
 #[test]
 fn pauses_change_nothing() {
     let mut random = Random::new(2);
@@ -345,7 +441,7 @@ fn goals_come_and_change_their_cost() {
 
 fn free(columns: usize, rows: usize) -> World {
     let len = columns * rows;
-    World::Cells { columns, weights: vec![1.0; len], blocked: vec![false; len] }
+    World::Cells { columns, weights: vec![1.0; len], blocked: vec![false; len], usual_step: Some(1.0) }
 }
 
 fn set_blocked(world: &mut World, nodes: &[usize], to: bool) {
@@ -439,6 +535,6 @@ fn goals_that_make_no_sense_are_refused() {
     assert_eq!(dstar.field(), [0.0, 1.0, 1.0, std::f64::consts::SQRT_2]);
     assert_eq!(dstar.state(3), NodeState::Closed);
 
-    let nothing = World::Network { neighbours: Vec::new(), costs: Vec::new() };
+    let nothing = World::Network { neighbours: Vec::new(), costs: Vec::new(), usual_step: None };
     assert_eq!(Dstar::new(0).expand(&nothing, Until::WholeField, ALL), Progress::Done);
 }

@@ -219,10 +219,11 @@ pub(crate) fn direct(
     from: &Configuration<2>,
     to: &Configuration<2>,
 ) -> Option<Configuration<2>> {
-    let steps: [f64; 2] = std::array::from_fn(|j| match arm.joints()[j].limits {
+    let step = |j: usize| match arm.joints()[j].limits {
         JointLimits::Continuous => angle_difference(from.0[j], to.0[j]),
         JointLimits::Range { .. } => to.0[j] - from.0[j],
-    });
-    let short = steps.iter().all(|step| step.abs() <= MOST_TURN);
-    short.then(|| Configuration(std::array::from_fn(|j| from.0[j] + steps[j])))
+    };
+    let steps = [step(0), step(1)];
+    let short = steps[0].abs() <= MOST_TURN && steps[1].abs() <= MOST_TURN;
+    short.then(|| Configuration([from.0[0] + steps[0], from.0[1] + steps[1]]))
 }

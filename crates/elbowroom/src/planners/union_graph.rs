@@ -85,4 +85,8 @@ impl Graph for UnionGraph<'_> {
             }
         }
     }
+
+    fn usual_step(&self) -> Option<f64> {
+        Some(self.grid.step())
+    }
 }

@@ -1,11 +1,10 @@
 use std::collections::BTreeMap;
 
 use super::goal::goal_cost;
+use super::nodes::Nodes;
 use super::open_list::OpenList;
+use super::ring::Ring;
 use super::{GoalError, Graph};
-
-/// The back-pointer of a node that has none.
-const NONE: u32 = u32::MAX;
 
 /// D*: the cost-to-go of the nodes of a graph, and the way there, repaired where costs change.
 ///
@@ -15,6 +14,9 @@ const NONE: u32 = u32::MAX;
 ///
 /// Several goals are one: each is joined to a goal behind them all by an edge that costs what ending there costs,
 /// so a goal that was raised falls back to its own cost.
+///
+/// Where the graph tells its [usual step](Graph::usual_step), the first wave from the goals needs no comparison heap; it
+/// may close some nodes more than [`Until::Settled`] asks for. Memory is taken as the search spreads.
 ///
 /// # Example
 /// ```
@@ -59,11 +61,12 @@ const NONE: u32 = u32::MAX;
 /// paper: `h` is the cost-to-go, `k` the key on the open list, `b` the back-pointer.
 #[derive(Debug, Clone)]
 pub struct Dstar {
-    costs: Vec<f64>,
-    pointers: Vec<u32>,
-    open: OpenList,
+    pub(super) nodes: Nodes,
+    pub(super) open: OpenList,
+    /// The queue of the first wave from the goals, while nothing but lowering is going on.
+    pub(super) ring: Option<Ring>,
     goals: BTreeMap<usize, f64>,
-    expansions: usize,
+    pub(super) expansions: usize,
 }
 
 /// What D* holds of a node.
@@ -99,13 +102,12 @@ impl Dstar {
     /// No goals yet, over a graph of `len` nodes: no way is known from any node.
     ///
     /// # Panics
-    /// For more than `u32::MAX` nodes, which no memory holds.
+    /// For `u32::MAX` nodes or more, which no memory holds.
     pub fn new(len: usize) -> Self {
-        assert!(len <= NONE as usize, "{len} nodes are more than D* can number");
         Self {
-            costs: vec![f64::INFINITY; len],
-            pointers: vec![NONE; len],
+            nodes: Nodes::new(len),
             open: OpenList::new(len),
+            ring: None,
             goals: BTreeMap::new(),
             expansions: 0,
         }
@@ -113,12 +115,12 @@ impl Dstar {
 
     /// How many nodes the graph has.
     pub fn len(&self) -> usize {
-        self.costs.len()
+        self.nodes.len()
     }
 
     /// Whether the graph has no nodes.
     pub fn is_empty(&self) -> bool {
-        self.costs.is_empty()
+        self.nodes.len() == 0
     }
 
     /// Makes `node` a goal, where ending costs `cost`; the latest cost given to a goal counts.
@@ -127,11 +129,12 @@ impl Dstar {
     /// [`GoalError`] if there is no such node, or the cost is negative, infinite or NaN.
     pub fn insert_goal(&mut self, node: usize, cost: f64) -> Result<(), GoalError> {
         let cost = goal_cost(node, cost, self.len())?;
+        self.end_wave();
         let known = self.goals.insert(node, cost);
         // What expanding the goal behind all goals does to this one: raise it if its way ends here, lower it.
-        let ends_here = known.is_some() && self.pointers[node] == NONE;
-        if cost < self.costs[node] || (ends_here && cost > self.costs[node]) {
-            self.pointers[node] = NONE;
+        let ends_here = known.is_some() && self.nodes.next(node).is_none();
+        if cost < self.nodes.cost(node) || (ends_here && cost > self.nodes.cost(node)) {
+            self.nodes.end_at(node);
             self.insert(node, cost);
         }
         Ok(())
@@ -142,13 +145,16 @@ impl Dstar {
     /// `graph` must be the one D* was told of so far, with as many nodes.
     pub fn expand<G: Graph>(&mut self, graph: &G, until: Until, budget: usize) -> Progress {
         debug_assert_eq!(graph.len(), self.len());
-        for _ in 0..budget {
-            if self.holds(until) {
-                return Progress::Done;
+        self.begin_wave(graph);
+        let mut left = budget;
+        while !self.holds(until) {
+            if left == 0 {
+                return Progress::Paused;
             }
-            self.expand_one(graph);
+            left -=
+                if self.ring.is_some() { self.expand_bucket(graph, left) } else { self.expand_one(graph) };
         }
-        if self.holds(until) { Progress::Done } else { Progress::Paused }
+        Progress::Done
     }
 
     /// Tells that edges of `nodes` cost something else now, in `graph` as it is from here on.
@@ -157,6 +163,7 @@ impl Dstar {
     /// [`expand`](Self::expand). Numbers that are no node are passed over.
     pub fn changed<G: Graph>(&mut self, graph: &G, nodes: impl IntoIterator<Item = usize>) {
         debug_assert_eq!(graph.len(), self.len());
+        self.end_wave();
         for node in nodes.into_iter().filter(|&node| node < graph.len()) {
             // Both ends of every edge: a lowered cost spreads from the end that is nearer to the goal.
             self.reopen(node);
@@ -166,18 +173,17 @@ impl Dstar {
 
     /// The cost of the best way known from `node` to a goal; infinite if none is known, or there is no such node.
     pub fn cost_to_go(&self, node: usize) -> f64 {
-        self.costs.get(node).copied().unwrap_or(f64::INFINITY)
+        if node < self.len() { self.nodes.cost(node) } else { f64::INFINITY }
     }
 
     /// The cost-to-go of every node.
-    pub fn field(&self) -> &[f64] {
-        &self.costs
+    pub fn field(&self) -> Vec<f64> {
+        self.nodes.costs().collect()
     }
 
     /// The back-pointer of `node`: the next one on its way, or `None` at the way's end and where no way is known.
     pub fn next(&self, node: usize) -> Option<usize> {
-        let pointer = *self.pointers.get(node)?;
-        (pointer != NONE && self.costs[node] < f64::INFINITY).then_some(pointer as usize)
+        if self.cost_to_go(node) < f64::INFINITY { self.nodes.next(node) } else { None }
     }
 
     /// The nodes from `node` to its goal, both included, along the back-pointers; `None` if no way is known.
@@ -197,7 +203,7 @@ impl Dstar {
 
     /// What is held of `node`; [`NodeState::New`] also if there is no such node.
     pub fn state(&self, node: usize) -> NodeState {
-        if node >= self.len() || (!self.open.contains(node) && self.is_new(node)) {
+        if node >= self.len() || (!self.open.contains(node) && self.nodes.is_new(node)) {
             NodeState::New
         } else if self.open.contains(node) {
             NodeState::Open
@@ -213,6 +219,13 @@ impl Dstar {
 
     /// Whether nothing on the open list can change what `until` asks for.
     fn holds(&self, until: Until) -> bool {
+        if let Some(ring) = &self.ring {
+            return match (self.first_bucket(ring), until) {
+                (None, _) => true,
+                (Some(first), Until::Settled(node)) => first > ring.bucket_of(self.cost_to_go(node)),
+                (Some(_), Until::WholeField) => false,
+            };
+        }
         match (self.open.least_key(), until) {
             (None, _) => true,
             (Some(least), Until::Settled(node)) => least >= self.cost_to_go(node),
@@ -220,47 +233,48 @@ impl Dstar {
         }
     }
 
-    /// PROCESS-STATE of the paper.
-    fn expand_one<G: Graph>(&mut self, graph: &G) {
-        let Some((node, key)) = self.open.pop() else { return };
+    /// PROCESS-STATE of the paper; how many nodes that expanded.
+    fn expand_one<G: Graph>(&mut self, graph: &G) -> usize {
+        let Some((node, key)) = self.open.pop() else { return 0 };
         self.expansions += 1;
-        if key < self.costs[node] {
+        if key < self.nodes.cost(node) {
             self.fall_back(graph, node, key);
         }
         // Not `else`: a raised node that fell back to its key spreads it as a lowered one.
-        if key < self.costs[node] {
+        if key < self.nodes.cost(node) {
             self.spread_raise(graph, node, key);
         } else {
             self.spread_lower(graph, node);
         }
+        1
     }
 
     /// Leads raised `node` through a goal or a neighbour that is settled, where that is cheaper.
     fn fall_back<G: Graph>(&mut self, graph: &G, node: usize, key: f64) {
-        let mut best = self.costs[node];
+        let mut best = self.nodes.cost(node);
         if let Some(&goal) = self.goals.get(&node)
             && goal < best
         {
             best = goal;
-            self.pointers[node] = NONE;
+            self.nodes.end_at(node);
         }
         graph.neighbours(node, |neighbour, step| {
-            let onward = self.costs[neighbour];
+            let onward = self.nodes.cost(neighbour);
             if onward <= key && onward + step < best {
                 best = onward + step;
-                self.pointers[node] = neighbour as u32;
+                self.nodes.set_next(node, neighbour);
             }
         });
-        self.costs[node] = best;
+        self.nodes.set_cost(node, best);
     }
 
     /// LOWER: hands the final cost of `node` on, to those it improves and to those whose way leads through it.
     fn spread_lower<G: Graph>(&mut self, graph: &G, node: usize) {
-        let cost = self.costs[node];
+        let cost = self.nodes.cost(node);
         graph.neighbours(node, |neighbour, step| {
-            let (known, through) = (self.costs[neighbour], cost + step);
-            if through < known || (through > known && self.pointers[neighbour] == node as u32) {
-                self.pointers[neighbour] = node as u32;
+            let (known, through) = (self.nodes.cost(neighbour), cost + step);
+            if through < known || (through > known && self.nodes.leads_to(neighbour, node)) {
+                self.nodes.set_next(neighbour, node);
                 self.insert(neighbour, through);
             }
         });
@@ -271,12 +285,12 @@ impl Dstar {
     /// Others it could improve have to wait until it comes back as a lowered node; those that could improve it
     /// are put on the list to do so.
     fn spread_raise<G: Graph>(&mut self, graph: &G, node: usize, key: f64) {
-        let cost = self.costs[node];
+        let cost = self.nodes.cost(node);
         graph.neighbours(node, |neighbour, step| {
-            let (known, through) = (self.costs[neighbour], cost + step);
-            let leads_here = self.pointers[neighbour] == node as u32;
-            if (leads_here && through != known) || (through < known && self.is_new(neighbour)) {
-                self.pointers[neighbour] = node as u32;
+            let (known, through) = (self.nodes.cost(neighbour), cost + step);
+            let leads_here = self.nodes.leads_to(neighbour, node);
+            if (leads_here && through != known) || (through < known && self.nodes.is_new(neighbour)) {
+                self.nodes.set_next(neighbour, node);
                 self.insert(neighbour, through);
             } else if through < known {
                 self.insert(node, cost);
@@ -290,8 +304,8 @@ impl Dstar {
     ///
     /// The key is the least cost since it got there. Without any way before and after there is nothing to hand on.
     fn insert(&mut self, node: usize, cost: f64) {
-        let key = self.costs[node].min(cost);
-        self.costs[node] = cost;
+        let key = self.nodes.cost(node).min(cost);
+        self.nodes.set_cost(node, cost);
         if key < f64::INFINITY {
             self.open.insert(node, key);
         }
@@ -299,11 +313,6 @@ impl Dstar {
 
     /// MODIFY-COST of the paper, for one end of an edge whose cost is another now.
     fn reopen(&mut self, node: usize) {
-        self.insert(node, self.costs[node]);
-    }
-
-    /// Whether `node` was never reached: to the comparisons, a closed node without a way.
-    fn is_new(&self, node: usize) -> bool {
-        self.pointers[node] == NONE && self.costs[node] == f64::INFINITY
+        self.insert(node, self.nodes.cost(node));
     }
 }

@@ -1,8 +1,14 @@
 /// Children of one entry of the heap: four of them fit one cache line.
 const ARITY: usize = 4;
 
-/// The slot of a node that is not on the list.
-const ABSENT: u32 = u32::MAX;
+/// The slot of a node that is not on the list: 0, so that a new list is memory nobody has touched.
+const ABSENT: u32 = 0;
+
+/// The slot of a node that waits in a [`Ring`](super::ring::Ring).
+const IN_RING: u32 = 1;
+
+/// Slots of nodes in the heap are their places in it plus this.
+const FIRST: u32 = 2;
 
 /// D*'s open list: nodes waiting to be expanded, the one of least key first, of equal keys the least node.
 ///
@@ -39,29 +45,54 @@ impl OpenList {
         Self { heap: Vec::new(), slots: vec![ABSENT; len] }
     }
 
-    /// Whether `node` is on the list.
+    /// Whether `node` is on the list, or in the ring.
     pub(super) fn contains(&self, node: usize) -> bool {
         self.slots[node] != ABSENT
     }
 
-    /// The least key on the list.
+    /// Whether `node` waits in the ring.
+    #[inline]
+    pub(super) fn is_in_ring(&self, node: usize) -> bool {
+        self.slots[node] == IN_RING
+    }
+
+    /// Whether `node` is in the heap.
+    #[inline]
+    pub(super) fn is_in_heap(&self, node: usize) -> bool {
+        self.slots[node] >= FIRST
+    }
+
+    /// Keeps in mind that `node`, which is not in the heap, waits in the ring.
+    #[inline]
+    pub(super) fn enter_ring(&mut self, node: usize) {
+        self.slots[node] = IN_RING;
+    }
+
+    /// Keeps in mind that `node` has left the ring.
+    #[inline]
+    pub(super) fn leave_ring(&mut self, node: usize) {
+        self.slots[node] = ABSENT;
+    }
+
+    /// The least key in the heap.
     pub(super) fn least_key(&self) -> Option<f64> {
         self.heap.first().map(|entry| entry.key())
     }
 
-    /// Puts `node` on the list with `key`, or lowers the key it has there; a key is never raised.
+    /// Puts `node` into the heap with `key`, or lowers the key it has there; a key is never raised.
     pub(super) fn insert(&mut self, node: usize, key: f64) {
         let entry = Entry::new(node, key);
-        let slot = self.slots[node];
-        if slot == ABSENT {
-            self.heap.push(entry);
-            self.sift_up(self.heap.len() - 1, entry);
-        } else if entry < self.heap[slot as usize] {
-            self.sift_up(slot as usize, entry);
+        match self.slots[node].checked_sub(FIRST) {
+            None => {
+                self.heap.push(entry);
+                self.sift_up(self.heap.len() - 1, entry);
+            }
+            Some(slot) if entry < self.heap[slot as usize] => self.sift_up(slot as usize, entry),
+            Some(_) => {}
         }
     }
 
-    /// Takes the first node off the list, with its key.
+    /// Takes the first node out of the heap, with its key.
     pub(super) fn pop(&mut self) -> Option<(usize, f64)> {
         let first = *self.heap.first()?;
         let last = self.heap.pop()?;
@@ -111,7 +142,7 @@ impl OpenList {
 
     fn place(&mut self, slot: usize, entry: Entry) {
         self.heap[slot] = entry;
-        self.slots[entry.node()] = slot as u32;
+        self.slots[entry.node()] = slot as u32 + FIRST;
     }
 }
 

@@ -212,21 +212,22 @@ impl Walk<'_> {
     /// The neighbour that the velocities choose: eq. (5) for each, then the least `position - velocity`.
     fn step(&self, here: &Footprint, open: &[Successor], rng: &mut ChaCha8Rng) -> Option<Footprint> {
         let least = open.iter().map(|successor| successor.position).fold(f64::INFINITY, f64::min);
-        let mut chosen: Option<(f64, Footprint)> = None;
-        for &Successor { spot, cost, position, distance } in open {
+        let v_max = self.settings.v_max.unwrap_or(f64::INFINITY);
+        let carried = self.inertia * here.velocity;
+        let mut chosen: Option<(f64, f64, &Successor)> = None;
+        for successor in open {
+            let &Successor { position, distance, .. } = successor;
             let (r1, r2) = (unit(rng), unit(rng));
             let pull = self.settings.c_dstar * r1 * (least - position)
                 + self.settings.c_euclid * r2 * (distance - position);
-            let mut velocity = self.inertia * here.velocity + pull;
-            if let Some(v_max) = self.settings.v_max {
-                velocity = velocity.clamp(-v_max, v_max);
-            }
+            let velocity = (carried + pull).clamp(-v_max, v_max);
             let rank = position - velocity;
-            if chosen.is_none_or(|(best, _)| rank < best) {
-                chosen = Some((rank, Footprint { spot: spot as usize, velocity, cost: here.cost + cost }));
+            if chosen.is_none_or(|(best, ..)| rank < best) {
+                chosen = Some((rank, velocity, successor));
             }
         }
-        chosen.map(|(_, footprint)| footprint)
+        let (_, velocity, next) = chosen?;
+        Some(Footprint { spot: next.spot, velocity, cost: here.cost + next.cost })
     }
 }
 

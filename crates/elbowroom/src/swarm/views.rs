@@ -17,10 +17,10 @@ pub struct Terrain<'a, G> {
     pub is_goal: &'a dyn Fn(usize) -> bool,
 }
 
-/// A neighbour with a way to the goal.
+/// A neighbour that the walk may go on to.
 #[derive(Clone, Copy)]
 pub(super) struct Successor {
-    pub(super) spot: u32,
+    pub(super) spot: usize,
     /// Of the step there (m).
     pub(super) cost: f64,
     /// Its cost-to-go (m).
@@ -29,13 +29,20 @@ pub(super) struct Successor {
     pub(super) distance: f64,
 }
 
-/// Each node that a walk came near is a spot; what can be reached from it is asked of the terrain once.
+/// Each node that a walk came near is a spot; what can be reached from it is asked of the terrain once. What every step
+/// looks at lies close together.
 pub(super) struct Views<'t, 'a, G> {
     terrain: &'t Terrain<'a, G>,
     /// The spot of each node, plus 1; 0 for a node that nobody came near.
     spots_of: Vec<u32>,
     spots: Vec<Spot>,
-    successors: Vec<Successor>,
+    /// Cost-to-go and straight distance to the goal of each spot (m).
+    heights: Vec<[f64; 2]>,
+    /// Who came to each spot last.
+    walkers: Vec<u32>,
+    /// Neighbours with a way to the goal, of one spot after the other, and what the steps there cost (m).
+    neighbours: Vec<u32>,
+    costs: Vec<f64>,
     unvisited: Vec<Successor>,
     walker: u32,
 }
@@ -43,12 +50,8 @@ pub(super) struct Views<'t, 'a, G> {
 struct Spot {
     node: usize,
     is_goal: bool,
-    position: f64,
-    distance: f64,
-    /// Where its successors begin and end, once somebody stood here.
+    /// Where its neighbours begin and end, once somebody stood here.
     view: Option<(u32, u32)>,
-    /// Who came here last.
-    walker: u32,
 }
 
 impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
@@ -57,7 +60,10 @@ impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
             terrain,
             spots_of: vec![0; terrain.graph.len()],
             spots: Vec::new(),
-            successors: Vec::new(),
+            heights: Vec::new(),
+            walkers: Vec::new(),
+            neighbours: Vec::new(),
+            costs: Vec::new(),
             unvisited: Vec::new(),
             walker: 0,
         }
@@ -69,7 +75,10 @@ impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
             for spot in self.spots.drain(..) {
                 self.spots_of[spot.node] = 0;
             }
-            self.successors.clear();
+            self.heights.clear();
+            self.walkers.clear();
+            self.neighbours.clear();
+            self.costs.clear();
         }
         self.walker += 1;
         let spot = self.spot(start);
@@ -78,7 +87,7 @@ impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
     }
 
     pub(super) fn visit(&mut self, spot: usize) {
-        self.spots[spot].walker = self.walker;
+        self.walkers[spot] = self.walker;
     }
 
     pub(super) fn node(&self, spot: usize) -> usize {
@@ -92,33 +101,35 @@ impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
     /// Neighbours of `spot` with a way to the goal that this walk has not been to, in the graph's order.
     pub(super) fn unvisited(&mut self, spot: usize) -> &[Successor] {
         let (from, to) = match self.spots[spot].view {
-            Some(view) => view,
+            Some((from, to)) => (from as usize, to as usize),
             None => self.look_around(spot),
         };
         self.unvisited.clear();
-        for successor in &self.successors[from as usize..to as usize] {
-            if self.spots[successor.spot as usize].walker != self.walker {
-                self.unvisited.push(*successor);
+        for (&spot, &cost) in self.neighbours[from..to].iter().zip(&self.costs[from..to]) {
+            let spot = spot as usize;
+            if self.walkers[spot] != self.walker {
+                let [position, distance] = self.heights[spot];
+                self.unvisited.push(Successor { spot, cost, position, distance });
             }
         }
         &self.unvisited
     }
 
-    fn look_around(&mut self, spot: usize) -> (u32, u32) {
-        let from = self.successors.len() as u32;
+    fn look_around(&mut self, spot: usize) -> (usize, usize) {
+        let from = self.neighbours.len();
         let terrain = self.terrain;
         terrain.graph.neighbours(self.spots[spot].node, |node, cost| {
             if cost.is_finite() {
                 let neighbour = self.spot(node);
-                let Spot { position, distance, .. } = self.spots[neighbour];
-                if position.is_finite() {
-                    self.successors.push(Successor { spot: neighbour as u32, cost, position, distance });
+                if self.heights[neighbour][0].is_finite() {
+                    self.neighbours.push(neighbour as u32);
+                    self.costs.push(cost);
                 }
             }
         });
-        let view = (from, self.successors.len() as u32);
-        self.spots[spot].view = Some(view);
-        view
+        let to = self.neighbours.len();
+        self.spots[spot].view = Some((from as u32, to as u32));
+        (from, to)
     }
 
     fn spot(&mut self, node: usize) -> usize {
@@ -126,14 +137,9 @@ impl<'t, 'a, G: Graph> Views<'t, 'a, G> {
             return spot as usize;
         }
         let terrain = self.terrain;
-        self.spots.push(Spot {
-            node,
-            is_goal: (terrain.is_goal)(node),
-            position: (terrain.cost_to_go)(node),
-            distance: (terrain.distance)(node),
-            view: None,
-            walker: 0,
-        });
+        self.spots.push(Spot { node, is_goal: (terrain.is_goal)(node), view: None });
+        self.heights.push([(terrain.cost_to_go)(node), (terrain.distance)(node)]);
+        self.walkers.push(0);
         self.spots_of[node] = self.spots.len() as u32;
         self.spots.len() - 1
     }

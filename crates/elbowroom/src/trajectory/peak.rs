@@ -1,5 +1,6 @@
-/// How near to its place a root is sought, as a share of the stretch: at a turning point the value hardly changes.
-const NEAR_ENOUGH: f64 = 1e-12;
+/// The last step towards a root, as a share of the stretch. Newton's next one would be about the square of it, and at a
+/// turning point the value changes by the square of that.
+const NEAR_ENOUGH: f64 = 1e-6;
 
 /// Steps after which a root is taken as it is; each at least halves the last one.
 const MOST_STEPS: u32 = 60;
