@@ -15,6 +15,7 @@ OBJECTIVES: tuple[tuple[Objective, str, float], ...] = (("tip", "cm", 100.0), ("
 
 STOPS = er.Joint(min=0.0, max=math.tau)
 
+
 @dataclass(frozen=True)
 class Case:
     """A scene with its joint 1 as it is, or between stops."""
