@@ -27,7 +27,8 @@ BEST_KNOWN = {
 def joint_travel() -> list[str]:
     """Return the table of joint travel: as planned by default and with a gap of 0.1 % asked for."""
     rows = [
-        "| scene | joint 1 | task | planned (rad) | proved least | gap | with `--gap 0.001` | proved least | gap | reference |",
+        "| scene | joint 1 | task | planned (rad) | proved least | gap "
+        "| with `--gap 0.001` | proved least | gap | reference |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in cases():

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import elbowroom as er
+from bench.bounds import BEST_KNOWN
 from bench.clock import TooLong
 from bench.entries import Goal, Section, Table
-from bench.objectives import BEST_KNOWN, Case, cases
+from bench.objectives import Case, cases
 from bench.ompl_peers import LIMIT, PYTHON_LIMIT, PYTHON_SEEDS, SEEDS, Peer, peers, problem
 from bench.work.plan import profile
 
