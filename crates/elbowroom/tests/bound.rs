@@ -15,11 +15,11 @@ use std::f64::consts::{PI, TAU};
 
 use elbowroom::arm::{Configuration, Joint, JointLimits, Posture, TwoLinkArm};
 use elbowroom::free_space::configurations;
-use elbowroom::geometry::Point;
+use elbowroom::geometry::{Point, Vector};
 use elbowroom::path::sweep_keeps;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Scene, Task, TaskPosture};
-use elbowroom::surface::{Measure, Side, Surface, SurfacePlace};
+use elbowroom::surface::{Across, Crossing, Measure, Side, Surface, SurfacePlace};
 use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What brute force finds.
@@ -376,6 +376,31 @@ fn walls_that_the_verifier_accepts_are_blocked_all_along() {
         }
     }
     assert!(accepted.iter().chain(&refused).all(|&count| count > 100), "{accepted:?}, {refused:?}");
+}
+
+#[test]
+fn claims_that_the_arm_does_not_bear_out_are_refused() {
+    let scene = (0..).find_map(worlds::world).unwrap();
+    let square = |across: [Option<Across>; 4]| {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        let side = |i: usize| Side { from: Point::new(corners[i].0, corners[i].1), across: across[i] };
+        (0..4).map(side).collect::<Vec<_>>()
+    };
+    // A square that goes on at its own other end, as if a joint turned round after a radian.
+    let to = |side, x| Some(Across { cell: 0, side, crossing: Crossing::Shift(Vector::new(x, 0.0)) });
+    let round = Surface::new(&[square([None, to(3, -1.0), None, to(1, 1.0)])]).unwrap();
+    let middle = Configuration([0.5, 0.5]);
+    let at = |q: Configuration<2>, x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });
+    let judged = |surface: &Surface, start: (Configuration<2>, SurfacePlace)| {
+        let starts = [start];
+        let claim =
+            OpenJoints { surface, starts: &starts, goals: &[middle], keeps_posture: false, margin: 0.0 };
+        bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true)
+    };
+    assert!(matches!(judged(&round, at(middle, 0.5)), Err(BoundError::Seam { cell: 0, side: 1 })));
+    let plain = Surface::new(&[square([None; 4])]).unwrap();
+    assert!(matches!(judged(&plain, at(middle, 0.6)), Err(BoundError::Place { .. })));
+    assert!(matches!(judged(&plain, at(Configuration([2.5, 0.5]), 2.5)), Err(BoundError::Place { .. })));
 }
 
 #[test]

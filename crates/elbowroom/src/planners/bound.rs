@@ -87,11 +87,9 @@ fn tip_bound(
 ) -> Result<f64, PlanError> {
     let walls = Walls { inside: true, distance };
     let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
-    let places = |ends: &[Configuration<2>]| -> Option<Vec<(Configuration<2>, SurfacePlace)>> {
-        ends.iter().map(|q| Some((*q, chart.place(scene.arm.tip(q))?))).collect()
-    };
-    if let (Some(starts), Some(goals)) = (places(&problem.starts), places(&problem.goals)) {
-        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &goals, margin: 0.0 };
+    let place = |q: &Configuration<2>| Some((*q, chart.place(scene.arm.tip(q))?));
+    if let Some(starts) = problem.starts.iter().map(place).collect::<Option<Vec<_>>>() {
+        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &problem.goals, margin: 0.0 };
         match bound_over_tips(scene, &claim, keep_going) {
             Ok(Reachability::AtLeast { cost, .. }) => return Ok(cost),
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -124,14 +122,11 @@ fn with_walls(
     let mut open = Vec::new();
     for range in sheet_ranges(scene, &problem.starts, problem.may_flip) {
         let chart = JointChart::new(scene, 0.0, range, walls, keep_going).ok_or(BoundError::Stopped)?;
-        let (starts, goals) = (
-            on_chart(scene, &chart, range, &problem.starts)?,
-            on_chart(scene, &chart, range, &problem.goals)?,
-        );
+        let starts = on_chart(scene, &chart, range, &problem.starts)?;
         let claim = OpenJoints {
             surface: &chart.sewn.surface,
             starts: &starts,
-            goals: &goals,
+            goals: &problem.goals,
             keeps_posture: !problem.may_flip,
             margin: 0.0,
         };

@@ -8,6 +8,7 @@ use super::pull::{Plane, Pull};
 use super::settings::Objective;
 use super::{Monitor, PlanError, Stage};
 use crate::arm::Configuration;
+use crate::geometry::Point;
 use crate::path::{JointPath, sweep_is_free};
 use crate::scene::Scene;
 use crate::surface::{Measure, SurfacePlace, TautPath, taut_path};
@@ -125,7 +126,8 @@ fn shortest(
         let (starts, goals) = (places(&problem.starts), places(&problem.goals));
         let [from, to] =
             [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
-        let images = images(scene, &chart.sewn.surface, &to);
+        let at_goals: Vec<Point> = to.iter().map(|place| place.point).collect();
+        let images = images(scene, &chart.sewn.surface, &at_goals);
         let Some(path) = taut_path(&chart.sewn.surface, &from, &to, measure, &images, &keep_going) else {
             if !keep_going() {
                 return Err(PlanError::Stopped);

@@ -4,9 +4,9 @@ use thiserror::Error;
 
 use super::blocked::Blocked;
 use crate::arm::{Configuration, JointLimits, TwoLinkArm};
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 use crate::scene::Scene;
-use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
+use crate::surface::{Crossing, Measure, Surface, SurfacePlace, TautPath, taut_path};
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
 const ANGLE_ROUNDING: f64 = 1e-9;
@@ -25,8 +25,8 @@ pub struct OpenJoints<'a> {
     pub surface: &'a Surface,
     /// Where each start is.
     pub starts: &'a [(Configuration<2>, SurfacePlace)],
-    /// Where each goal is.
-    pub goals: &'a [(Configuration<2>, SurfacePlace)],
+    /// The goals; where they are on the surface is found out.
+    pub goals: &'a [Configuration<2>],
     /// Whether the posture must not change: walls may stand at full stretch and fold.
     pub keeps_posture: bool,
     /// Clearance that is asked for (m): what comes nearer counts as blocked.
@@ -72,6 +72,14 @@ pub enum BoundError {
         /// The configuration (rad).
         q: [f64; 2],
     },
+    /// A seam joins places that are not the same to the arm.
+    #[error("side {side} of cell {cell} is sewn to another place")]
+    Seam {
+        /// Which cell.
+        cell: usize,
+        /// Which of its sides.
+        side: usize,
+    },
     /// `keep_going` said no.
     #[error("stopped before the bound was proved")]
     Stopped,
@@ -91,12 +99,16 @@ pub fn bound_over_joints(
     measure: Measure,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
-    for (q, place) in claim.starts.iter().chain(claim.goals) {
+    for (q, place) in claim.starts {
         if !stands_at(scene, q, place, claim.surface) {
             return Err(BoundError::Place { q: q.0 });
         }
     }
     let surface = claim.surface;
+    check_seams(surface, |j, way| match scene.arm.joints()[j].limits {
+        JointLimits::Continuous => (way - TAU * (way / TAU).round()).abs() <= ANGLE_ROUNDING,
+        JointLimits::Range { .. } => way == 0.0,
+    })?;
     let reached = surface.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
     let blocked = Blocked::new(scene, claim.margin);
     let stands = |from: Point, to: Point| {
@@ -107,16 +119,18 @@ pub fn bound_over_joints(
     if let Some([from, to]) = first_gap(surface, &|cell| reached[cell], &stands, keep_going)? {
         return Err(BoundError::Wall { from: [from.x, from.y], to: [to.x, to.y] });
     }
-    let places =
-        |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
-    let (starts, goals) = (places(claim.starts), places(claim.goals));
-    if goals.iter().all(|goal| !reached[goal.cell]) {
+    let angles: Vec<Point> = claim.goals.iter().map(|q| Point::new(q.0[0], q.0[1])).collect();
+    let images = images(scene, surface, &angles);
+    let goals = places_of(surface, &reached, &images);
+    if goals.is_empty() {
         return Ok(Reachability::Parted);
     }
-    let images = images(scene, surface, &goals);
+    let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
     let path =
         taut_path(surface, &starts, &goals, measure, &images, keep_going).ok_or(BoundError::Stopped)?;
-    Ok(Reachability::AtLeast { cost: path.cost * (1.0 - SUM_ROUNDING), path })
+    let rounding = 2.0 * measure.of(Vector::new(ANGLE_ROUNDING, ANGLE_ROUNDING));
+    let cost = (path.cost * (1.0 - SUM_ROUNDING) - rounding).max(0.0);
+    Ok(Reachability::AtLeast { cost, path })
 }
 
 /// The claim that a surface over the world's plane (m) leaves open every place that the tip can be at.
@@ -126,8 +140,8 @@ pub struct OpenTips<'a> {
     pub surface: &'a Surface,
     /// Where each start is.
     pub starts: &'a [(Configuration<2>, SurfacePlace)],
-    /// Where each goal is.
-    pub goals: &'a [(Configuration<2>, SurfacePlace)],
+    /// The goals; where they are on the surface is found out.
+    pub goals: &'a [Configuration<2>],
     /// Clearance that is asked for (m): what comes nearer counts as blocked.
     pub margin: f64,
 }
@@ -145,7 +159,8 @@ pub fn bound_over_tips(
     let arm = &scene.arm;
     let (surface, [_, reach]) = (claim.surface, arm.reach());
     let size = arm.base().x.abs() + arm.base().y.abs() + reach;
-    for (q, place) in claim.starts.iter().chain(claim.goals) {
+    check_seams(surface, |_, way| way == 0.0)?;
+    for (q, place) in claim.starts {
         let near = place.point.distance(arm.tip(q)) <= TIP_ROUNDING * size;
         if !(near && place.cell < surface.len() && surface.holds(place.cell, place.point)) {
             return Err(BoundError::Place { q: q.0 });
@@ -166,11 +181,10 @@ pub fn bound_over_tips(
     if let Some([from, to]) = first_gap(surface, &|_| true, &stands, keep_going)? {
         return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
     }
-    let places =
-        |ends: &[(Configuration<2>, SurfacePlace)]| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>();
-    let (starts, goals) = (places(claim.starts), places(claim.goals));
-    let images: Vec<Point> = goals.iter().map(|goal| goal.point).collect();
-    match taut_path(surface, &starts, &goals, Measure::Euclidean, &images, keep_going) {
+    let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
+    let tips: Vec<Point> = claim.goals.iter().map(|q| arm.tip(q)).collect();
+    let goals = places_of(surface, &vec![true; surface.len()], &tips);
+    match taut_path(surface, &starts, &goals, Measure::Euclidean, &tips, keep_going) {
         Some(path) => {
             // Places are as near to the tips as rounding lets them be.
             let cost = path.cost * (1.0 - SUM_ROUNDING) - 2.0 * TIP_ROUNDING * size;
@@ -179,6 +193,43 @@ pub fn bound_over_tips(
         None if keep_going() => Ok(Reachability::Parted),
         None => Err(BoundError::Stopped),
     }
+}
+
+/// Whether every plane goes on beyond its seams as the arm does: moved by what `is_same` allows of each coordinate.
+fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> bool) -> Result<(), BoundError> {
+    for cell in 0..surface.len() {
+        for (side, across) in surface.sides(cell).iter().enumerate().filter_map(|(i, s)| Some((i, s.across?)))
+        {
+            let sound = match across.crossing {
+                Crossing::Shift(way) => is_same(0, way.x) && is_same(1, way.y),
+                Crossing::Fold => false,
+            };
+            if !sound {
+                return Err(BoundError::Seam { cell, side });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Every place of cells that matter where one of `points` is: a motion may end in any of them.
+fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -> Vec<SurfacePlace> {
+    let mut places = Vec::new();
+    for cell in (0..surface.len()).filter(|&cell| matters[cell]) {
+        let sides = surface.sides(cell);
+        let span = |of: fn(&Point) -> f64| {
+            let ends = sides.iter().map(|side| of(&side.from));
+            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
+        };
+        let ([x0, x1], [y0, y1]) = (span(|p| p.x), span(|p| p.y));
+        let near = |p: &&Point| {
+            (x0 - ANGLE_ROUNDING..=x1 + ANGLE_ROUNDING).contains(&p.x)
+                && (y0 - ANGLE_ROUNDING..=y1 + ANGLE_ROUNDING).contains(&p.y)
+        };
+        let held = points.iter().filter(near).filter(|p| surface.holds(cell, **p));
+        places.extend(held.map(|&point| SurfacePlace { cell, point }));
+    }
+    places
 }
 
 /// The first wall of the cells that matter that does not stand, looked for on all cores where the pool is compiled in.
@@ -253,7 +304,7 @@ fn is_in_line(point: Point) -> bool {
 }
 
 /// The goals in every turn of continuous joints that can be next to a cell.
-pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[SurfacePlace]) -> Vec<Point> {
+pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[Point]) -> Vec<Point> {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
     for side in (0..surface.len()).flat_map(|cell| surface.sides(cell)) {
@@ -271,9 +322,9 @@ pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[SurfacePlace]) -
     };
     let mut images = Vec::new();
     for goal in goals {
-        for i in turns(0, goal.point.x) {
-            for j in turns(1, goal.point.y) {
-                images.push(Point::new(goal.point.x + TAU * i as f64, goal.point.y + TAU * j as f64));
+        for i in turns(0, goal.x) {
+            for j in turns(1, goal.y) {
+                images.push(Point::new(goal.x + TAU * i as f64, goal.y + TAU * j as f64));
             }
         }
     }
