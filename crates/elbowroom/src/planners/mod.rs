@@ -1,6 +1,7 @@
 //! From a task to a plan.
 
 mod bound;
+mod candidates;
 mod chart;
 mod choose;
 mod limits;
@@ -17,9 +18,10 @@ mod sheets;
 mod smooth;
 mod union_graph;
 
+pub use candidates::NEARLY_EQUAL;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
 pub use plan::{NoPath, Plan, PlanError};
-pub use posture_true::{NEARLY_EQUAL, plan};
+pub use posture_true::plan;
 pub use settings::{Objective, Pace, PlanSettings, Planner};

@@ -1,47 +1,24 @@
 //! Planning on places and postures: what comes out is a motion that the verifier has proved to be safe.
 
 use super::bound::{Proved, prove};
-use super::choose::shortlist;
+use super::candidates::{Candidate, Found, GRID_TOLERANCE, SAME_COST, off_grid, over_grid};
 use super::limits::{AssumedLimit, motion_limits, stated_limits};
-use super::optimal::{Search, over_joints, over_tips};
-use super::posture_graph::PostureGraph;
+use super::optimal::{Search, over_joints};
 use super::problem::Problem;
 use super::settings::{Objective, Pace, PlanSettings, Planner};
 use super::smooth::{SmoothError, Smoothed, Style, smooth};
 use super::{Monitor, Plan, PlanError, Stage};
 
-use crate::free_space::FreeSpace;
-use crate::geometry::Point;
 use crate::path::JointPath;
 use crate::scene::{Scene, Task};
-use crate::search::{Dstar, Graph, Progress, Until};
-use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
 use crate::trajectory::SpeedLimits;
 use crate::verify::Trajectory;
-
-/// Expansions of D* between two looks at the monitor: a few milliseconds.
-const EXPANSIONS_PER_LOOK: usize = 1_000;
-
-/// By how much a tip path may be longer than the shortest and still be chosen for what the arm pays, as a share.
-pub const NEARLY_EQUAL: f64 = 0.01;
-
-/// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
-const SHORTLIST: usize = 8;
-
-/// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
-const GRID_TOLERANCE: f64 = 1.0;
-
-/// The same for a taut path, which has no zigzag to lose.
-const TAUT_TOLERANCE: f64 = 0.1;
 
 /// How much less a path has to cost than its smooth motion for the arm to stop at its corners, as a share.
 const WORTH_STOPPING: f64 = 0.005;
 
 /// How much closer to the path a motion is tried before one that stops at corners, as a share of the tolerance.
 const CLOSER: f64 = 0.1;
-
-/// Costs that differ by less than this share are the same: sums of the same steps in another order.
-const SAME_COST: f64 = 1e-9;
 
 /// How far inside the obstacles the walls of a lower bound stand (rad), and before them those of the free cells: one
 /// after the other until there is a path, or a proof that there is none.
@@ -108,7 +85,7 @@ impl<M: Monitor> Work<'_, M> {
 
     fn over_grid(&self) -> Result<Plan, PlanError> {
         let bound = self.bound(COARSE_DISTANCE)?;
-        match shortest(self.scene, &self.problem, self.settings, &self.limits, self.monitor) {
+        match over_grid(self.scene, &self.problem, self.settings, &self.limits, self.monitor) {
             Ok(found) => self.motion_along(found, bound),
             Err(not_found @ PlanError::NotFound { .. }) => {
                 for distance in DISTANCES {
@@ -148,7 +125,7 @@ impl<M: Monitor> Work<'_, M> {
                     _ => None,
                 };
                 let search = Search::new(distance, near);
-                let found = taut(
+                let found = off_grid(
                     self.scene,
                     &self.problem,
                     self.settings.objective,
@@ -241,63 +218,6 @@ fn is_worth_stopping(scene: &Scene, settings: &PlanSettings, path: &JointPath, s
     own < (1.0 - WORTH_STOPPING) * cost(scene, settings.objective, &smoothed.trajectory)
 }
 
-/// Paths that leave the grid: over the joints or, for tip travel, over the tip; for time what D* finds as well, which
-/// may have fewer corners to slow down at.
-fn taut(
-    scene: &Scene,
-    problem: &Problem,
-    objective: Objective,
-    limits: &[SpeedLimits; 2],
-    search: Search,
-    monitor: &impl Monitor,
-) -> Result<Found, PlanError> {
-    let on_grid = || {
-        let settings = PlanSettings { planner: Planner::Dstar, objective, ..PlanSettings::default() };
-        match shortest(scene, problem, &settings, limits, monitor) {
-            Ok(found) => Ok(found.candidates),
-            Err(PlanError::NotFound { .. }) => Ok(Vec::new()),
-            Err(other) => Err(other),
-        }
-    };
-    let over_joints = || -> Result<Vec<Candidate>, PlanError> {
-        let paths = over_joints(scene, problem, objective, limits, search, monitor)?;
-        Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
-    };
-    let candidates = match objective {
-        Objective::Joint => over_joints()?,
-        Objective::Time => {
-            let mut candidates = on_grid()?;
-            match over_joints() {
-                // Corners cost time: they are kept to closely, and loosely.
-                Ok(more) => candidates.extend(more.into_iter().flat_map(|candidate| {
-                    [Candidate { tolerance: GRID_TOLERANCE, ..candidate.clone() }, candidate]
-                })),
-                Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
-                Err(other) => return Err(other),
-            }
-            candidates
-        }
-        Objective::Tip => {
-            let mut rough = on_grid()?;
-            if rough.is_empty() {
-                rough = over_joints()?;
-            }
-            let mut candidates = Vec::new();
-            for Candidate { path, .. } in &rough {
-                let paths = over_tips(scene, path, monitor)?;
-                candidates.extend(paths.into_iter().map(|path| candidate(scene, path)));
-            }
-            candidates
-        }
-    };
-    let paths = candidates.len();
-    Ok(Found { candidates, paths })
-}
-
-fn candidate(scene: &Scene, path: JointPath) -> Candidate {
-    Candidate { tip_travel: path.tip_travel(&scene.arm), path, tolerance: TAUT_TOLERANCE }
-}
-
 /// What `trajectory` costs in terms of `objective`.
 fn cost(scene: &Scene, objective: Objective, trajectory: &Trajectory) -> f64 {
     let motion = trajectory.motion();
@@ -317,100 +237,6 @@ fn in_terms_of(pace: Pace, error: SmoothError) -> PlanError {
         (SmoothError::Refused(verdict), _) => PlanError::Refused(verdict),
         (SmoothError::Stopped | SmoothError::TooFast { .. }, _) => PlanError::Stopped,
     }
-}
-
-/// Certified paths, and how many they were chosen from.
-struct Found {
-    candidates: Vec<Candidate>,
-    paths: usize,
-}
-
-/// A certified path to make a motion of.
-#[derive(Clone)]
-struct Candidate {
-    path: JointPath,
-    /// Its tip travel (m).
-    tip_travel: f64,
-    /// How far the motion may stray from it before the verifier is asked, in grid steps.
-    tolerance: f64,
-}
-
-fn shortest(
-    scene: &Scene,
-    problem: &Problem,
-    settings: &PlanSettings,
-    limits: &[SpeedLimits; 2],
-    monitor: &impl Monitor,
-) -> Result<Found, PlanError> {
-    let not_found = || PlanError::NotFound { step: scene.grid.step() };
-    monitor.stage(Stage::FreeSpace);
-    let space = FreeSpace::of_until(scene, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
-
-    monitor.stage(Stage::CostToGo);
-    let mut graph = PostureGraph::new(scene, &space, problem.may_flip);
-    let goals: Vec<usize> = problem.goals.iter().map(|q| graph.insert(*q)).collect();
-    let starts: Vec<usize> = problem.starts.iter().map(|q| graph.insert(*q)).collect();
-    let mut field = Dstar::new(graph.len());
-    for &goal in &goals {
-        field.insert_goal(goal, 0.0)?;
-    }
-    for &start in &starts {
-        while field.expand(&graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
-            if !monitor.keep_going() {
-                return Err(PlanError::Stopped);
-            }
-        }
-    }
-    let least = starts.iter().map(|&start| field.cost_to_go(start)).fold(f64::INFINITY, f64::min);
-    if least.is_infinite() {
-        return Err(not_found());
-    }
-
-    monitor.stage(Stage::TipPath);
-    let slack = match settings.objective {
-        Objective::Tip => 0.0,
-        Objective::Joint | Objective::Time => NEARLY_EQUAL,
-    };
-    let worth_it = starts.iter().filter(|&&start| field.cost_to_go(start) <= least * (1.0 + slack));
-    let mut own: Vec<(f64, Vec<usize>)> = Vec::new();
-    let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
-    for &start in worth_it {
-        own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        match &settings.planner {
-            Planner::Dstar | Planner::Optimal => {}
-            Planner::DstarPso(swarm) => {
-                let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
-                let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
-                let terrain = Terrain {
-                    graph: &graph,
-                    cost_to_go: &|node| field.cost_to_go(node),
-                    distance: &|node| {
-                        let tip = graph.tip(node);
-                        goal_tips.iter().map(|goal| goal.distance(tip)).fold(f64::INFINITY, f64::min)
-                    },
-                    is_goal: &|node| goals.contains(&node),
-                };
-                let paths = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
-                let paths = paths.ok_or(PlanError::Stopped)?;
-                drawn.extend(paths.costs.into_iter().zip(paths.paths));
-            }
-        }
-    }
-
-    monitor.stage(Stage::JointPath);
-    drawn.retain(|(cost, nodes)| {
-        *cost <= least * (1.0 + slack.max(SAME_COST)) && own.iter().all(|(_, known)| known != nodes)
-    });
-    let paths = own.len() + drawn.len();
-    let joined = |paths: Vec<(f64, Vec<usize>)>| {
-        let joined = paths.into_iter().map(|(cost, nodes)| Some((cost, graph.joint_path(&nodes)?)));
-        joined.collect::<Option<Vec<(f64, JointPath)>>>().ok_or_else(not_found)
-    };
-    // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
-    let mut chosen = joined(own)?;
-    chosen.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
-    let candidate = |(tip_travel, path)| Candidate { path, tip_travel, tolerance: GRID_TOLERANCE };
-    Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths })
 }
 
 fn check(settings: &PlanSettings) -> Result<(), PlanError> {

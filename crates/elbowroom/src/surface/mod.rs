@@ -2,6 +2,7 @@
 
 mod cells;
 mod measure;
+mod sight;
 mod taut;
 
 pub use cells::{Across, Crossing, Side, Surface, SurfaceError};

@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 
 use super::blocked::Blocked;
-use crate::arm::{Configuration, JointLimits, TwoLinkArm};
+use crate::arm::{Configuration, JointLimits};
 use crate::geometry::{Point, Vector};
 use crate::scene::Scene;
 use crate::surface::{Crossing, Measure, Surface, SurfacePlace, TautPath, taut_path};
@@ -11,11 +11,8 @@ use crate::surface::{Crossing, Measure, Surface, SurfacePlace, TautPath, taut_pa
 /// Rounding that an angle may have gone through on its way to a place (rad).
 const ANGLE_ROUNDING: f64 = 1e-9;
 
-/// Rounding that a place of the tip may have gone through, as a share of the greatest coordinate.
-const TIP_ROUNDING: f64 = 1e-12;
-
 /// Share of a bound that is given away for the rounding of sums.
-const SUM_ROUNDING: f64 = 1e-9;
+pub(super) const SUM_ROUNDING: f64 = 1e-9;
 
 /// The claim that a surface over both joints, x the first and y the second (rad), leaves open all that is free and
 /// can be reached.
@@ -133,70 +130,8 @@ pub fn bound_over_joints(
     Ok(Reachability::AtLeast { cost, path })
 }
 
-/// The claim that a surface over the world's plane (m) leaves open every place that the tip can be at.
-#[derive(Debug, Clone, Copy)]
-pub struct OpenTips<'a> {
-    /// The cells and their walls.
-    pub surface: &'a Surface,
-    /// Where each start is.
-    pub starts: &'a [(Configuration<2>, SurfacePlace)],
-    /// The goals; where they are on the surface is found out.
-    pub goals: &'a [Configuration<2>],
-    /// Clearance that is asked for (m): what comes nearer counts as blocked.
-    pub margin: f64,
-}
-
-/// A lower bound of the tip travel (m) of every motion from any of the starts to any of the goals: every wall is shown
-/// to lie in an obstacle, out of reach, or nearer to the base than the second joint lets the tip come.
-///
-/// # Errors
-/// [`BoundError`]
-pub fn bound_over_tips(
-    scene: &Scene,
-    claim: &OpenTips<'_>,
-    keep_going: &(dyn Fn() -> bool + Sync),
-) -> Result<Reachability, BoundError> {
-    let arm = &scene.arm;
-    let (surface, [_, reach]) = (claim.surface, arm.reach());
-    let size = arm.base().x.abs() + arm.base().y.abs() + reach;
-    check_seams(surface, |_, way| way == 0.0)?;
-    for (q, place) in claim.starts {
-        let near = place.point.distance(arm.tip(q)) <= TIP_ROUNDING * size;
-        if !(near && place.cell < surface.len() && surface.holds(place.cell, place.point)) {
-            return Err(BoundError::Place { q: q.0 });
-        }
-    }
-    let blocked = Blocked::new(scene, claim.margin);
-    let hole = innermost_reach(arm) - TIP_ROUNDING * size;
-    let in_hole = |p: Point| p.distance(arm.base()) <= hole;
-    let out_of_reach = |a: Point, b: Point| {
-        let beyond = |a: f64, b: f64| (a >= reach && b >= reach) || (a <= -reach && b <= -reach);
-        let (a, b) = (a - arm.base(), b - arm.base());
-        beyond(a.x, b.x) || beyond(a.y, b.y)
-    };
-    let stands = |from: Point, to: Point| {
-        // A disc holds the line between two of its places.
-        out_of_reach(from, to) || (in_hole(from) && in_hole(to)) || blocked.tip_all_along(from, to, 0)
-    };
-    if let Some([from, to]) = first_gap(surface, &|_| true, &stands, keep_going)? {
-        return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
-    }
-    let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
-    let tips: Vec<Point> = claim.goals.iter().map(|q| arm.tip(q)).collect();
-    let goals = places_of(surface, &vec![true; surface.len()], &tips);
-    match taut_path(surface, &starts, &goals, Measure::Euclidean, &tips, keep_going) {
-        Some(path) => {
-            // Places are as near to the tips as rounding lets them be.
-            let cost = path.cost * (1.0 - SUM_ROUNDING) - 2.0 * TIP_ROUNDING * size;
-            Ok(Reachability::AtLeast { cost: cost.max(0.0), path })
-        }
-        None if keep_going() => Ok(Reachability::Parted),
-        None => Err(BoundError::Stopped),
-    }
-}
-
 /// Whether every plane goes on beyond its seams as the arm does: moved by what `is_same` allows of each coordinate.
-fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> bool) -> Result<(), BoundError> {
+pub(super) fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> bool) -> Result<(), BoundError> {
     for cell in 0..surface.len() {
         for (side, across) in surface.sides(cell).iter().enumerate().filter_map(|(i, s)| Some((i, s.across?)))
         {
@@ -213,7 +148,7 @@ fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> bool) -> Resul
 }
 
 /// Every place of cells that matter where one of `points` is: a motion may end in any of them.
-fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -> Vec<SurfacePlace> {
+pub(super) fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -> Vec<SurfacePlace> {
     let mut places = Vec::new();
     for cell in (0..surface.len()).filter(|&cell| matters[cell]) {
         let sides = surface.sides(cell);
@@ -233,7 +168,7 @@ fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -> Vec<Surfa
 }
 
 /// The first wall of the cells that matter that does not stand, looked for on all cores where the pool is compiled in.
-fn first_gap(
+pub(super) fn first_gap(
     surface: &Surface,
     matters: &(dyn Fn(usize) -> bool + Sync),
     stands: &(dyn Fn(Point, Point) -> bool + Sync),
@@ -259,20 +194,6 @@ fn first_gap(
     #[cfg(not(feature = "parallel"))]
     let found = (0..surface.len()).find_map(gap_of);
     found.transpose()
-}
-
-/// How near to the base the tip can come (m), by the links and where the second joint may be.
-pub(crate) fn innermost_reach(arm: &TwoLinkArm) -> f64 {
-    let ([l1, l2], [nearest, _]) = (arm.lengths(), arm.reach());
-    match arm.joints()[1].limits {
-        JointLimits::Continuous => nearest,
-        JointLimits::Range { min, max } => {
-            // Folded where the angle is an odd number of half turns.
-            let folds = ((min - PI) / TAU).ceil() * TAU + PI <= max;
-            let cos = libm::cos(min).min(libm::cos(max));
-            if folds { nearest } else { (l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cos).max(0.0).sqrt() }
-        }
-    }
 }
 
 /// Whether `place` holds `q`, whole turns of continuous joints aside.

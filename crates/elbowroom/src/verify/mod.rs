@@ -8,6 +8,7 @@
 mod bernstein;
 mod blocked;
 mod bound;
+mod bound_tips;
 mod clearance;
 mod continuity;
 mod limits;
@@ -20,8 +21,10 @@ mod verdict;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
-pub use bound::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
-pub(crate) use bound::{images, innermost_reach};
+pub(crate) use bound::images;
+pub use bound::{BoundError, OpenJoints, Reachability, bound_over_joints};
+pub(crate) use bound_tips::innermost_reach;
+pub use bound_tips::{OpenTips, bound_over_tips};
 pub use continuity::JUMP_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
 pub use trajectory::Trajectory;
