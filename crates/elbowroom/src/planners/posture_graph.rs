@@ -43,7 +43,8 @@ struct PlaceNode {
 impl<'a> PostureGraph<'a> {
     /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
     pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool) -> Self {
-        Self { scene, sheets: Sheets::new(scene, space), may_flip, places: Vec::new() }
+        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid.step());
+        Self { scene, sheets, may_flip, places: Vec::new() }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
@@ -188,7 +189,8 @@ impl<'a> PostureGraph<'a> {
         let arm = &self.scene.arm;
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
         let bounds = motion_bounds(arm, &from.q, &end);
-        (0..2).all(|link| from.clearance[link] + to.clearance[link] > bounds[link])
+        let clearance = from.clearance_with(to);
+        (0..2).all(|link| clearance[link] > bounds[link])
     }
 
     /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`: to another turn of the
@@ -230,7 +232,7 @@ impl<'a> PostureGraph<'a> {
 
     /// Whether the posture may be changed at a node.
     fn may_flip_at(&self, record: &Record) -> bool {
-        self.may_flip && record.to_edge <= FLIP_BAND * self.scene.grid.step()
+        self.may_flip && record.is_near_edge
     }
 }
 

@@ -19,6 +19,8 @@ const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
 pub(crate) struct Sheets<'a> {
     scene: &'a Scene,
     space: &'a FreeSpace,
+    /// How near to the edge of the reach is near (m).
+    edge_band: f64,
     per_posture: usize,
     cells: usize,
     /// From a cell that is not at the grid's edge to its neighbours.
@@ -28,14 +30,14 @@ pub(crate) struct Sheets<'a> {
     records: RefCell<Vec<Record>>,
 }
 
-/// What is known of a free node.
+/// What is known of a free node; small, for a fine grid has millions of them.
 #[derive(Clone, Copy)]
 pub(crate) struct Record {
     pub(crate) q: Configuration<2>,
-    /// Of each link, beyond what is to be kept (m).
-    pub(crate) clearance: [f64; 2],
-    /// From the tip to the nearer edge of the reach (m).
-    pub(crate) to_edge: f64,
+    /// Of each link, beyond what is to be kept (m), rounded down.
+    clearance: [f32; 2],
+    /// Whether the tip is near full stretch or fold.
+    pub(crate) is_near_edge: bool,
     /// The edges from here, a bit each: looked at, and certified.
     known: u32,
     certified: u32,
@@ -63,6 +65,11 @@ impl Edge {
 }
 
 impl Record {
+    /// Clearance of both links here and at `other`, added up (m).
+    pub(crate) fn clearance_with(&self, other: &Self) -> [f64; 2] {
+        std::array::from_fn(|link| f64::from(self.clearance[link]) + f64::from(other.clearance[link]))
+    }
+
     /// Whether `edge` is certified; `None` if nobody looked yet.
     pub(crate) fn is_certified(&self, edge: Edge) -> Option<bool> {
         (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
@@ -75,12 +82,13 @@ impl Record {
 }
 
 impl<'a> Sheets<'a> {
-    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace) -> Self {
+    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, edge_band: f64) -> Self {
         let per_posture: usize = scene.arm.joints().iter().map(|joint| turns(&joint.limits)).product();
         let cells = scene.grid.len();
         Self {
             scene,
             space,
+            edge_band,
             per_posture,
             cells,
             steps_around: steps_around(&scene.grid),
@@ -176,8 +184,14 @@ impl<'a> Sheets<'a> {
         let mut turned =
             first.places(q.0[0]).flat_map(|q1| second.places(q.0[1]).map(move |q2| Configuration([q1, q2])));
         let q = turned.nth(sheet % self.per_posture)?;
-        let clearance = certified_clearance(self.scene, &q);
-        Some(Record { q, clearance, to_edge: to_edge(arm, tip), known: 0, certified: 0 })
+        let clearance = certified_clearance(self.scene, &q).map(|clearance| (clearance as f32).next_down());
+        Some(Record {
+            q,
+            clearance,
+            is_near_edge: to_edge(arm, tip) <= self.edge_band,
+            known: 0,
+            certified: 0,
+        })
     }
 }
 
