@@ -139,7 +139,7 @@ def measure() -> Section:
             ours = np.fromfile(out).reshape(points, points)
             arguments = (free, goal, ours, runs)
             entries = [
-                Entry("elbowroom D*, one core", statistics.median(times), f"{int(np.isfinite(ours).sum()):,} points"),
+                Entry("elbowroom, one core", statistics.median(times), f"{int(np.isfinite(ours).sum()):,} points"),
                 attempt("scipy csgraph.dijkstra", partial(by_scipy, *arguments)),
                 attempt("scikit-image MCP_Geometric", partial(by_skimage, *arguments)),
                 attempt("scikit-fmm distance", partial(by_skfmm, *arguments)),

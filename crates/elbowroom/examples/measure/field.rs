@@ -1,12 +1,11 @@
-use elbowroom::search::{Dstar, GoalError, Progress, Until};
+use elbowroom::search::{Dstar, GoalError, Graph, Lattice, Progress, Until, wavefront};
 use serde_json::json;
 
-use super::cells::Cells;
 use super::{Outcome, runs};
 
-/// The cost-to-go of every cell from scratch.
-pub(crate) fn from_scratch(cells: &Cells, goal: usize) -> Result<Dstar, GoalError> {
-    let mut field = Dstar::new(cells.free.len());
+/// D*'s cost-to-go of every cell from scratch.
+pub(crate) fn from_scratch(cells: &Lattice, goal: usize) -> Result<Dstar, GoalError> {
+    let mut field = Dstar::new(cells.len());
     field.insert_goal(goal, 0.0)?;
     let progress = field.expand(cells, Until::WholeField, usize::MAX);
     debug_assert_eq!(progress, Progress::Done);
@@ -16,11 +15,11 @@ pub(crate) fn from_scratch(cells: &Cells, goal: usize) -> Result<Dstar, GoalErro
 /// The cost-to-go over a mask of a byte a point, 1 for free; writes it as little-endian doubles, in steps.
 pub(crate) fn measure(mask: &str, side: usize, goal: usize, runs: usize, out: &str) -> Outcome {
     let free = std::fs::read(mask)?.into_iter().map(|byte| byte == 1).collect();
-    let cells = Cells { side, free };
-    let (times, field) = runs::times(runs, || from_scratch(&cells, goal));
+    let cells = Lattice::new(side, 1.0, free);
+    let (times, field) = runs::times(runs, || wavefront(&cells, &[(goal, 0.0)]));
     let field = field?;
     if out != "-" {
-        std::fs::write(out, field.field().iter().flat_map(|cost| cost.to_le_bytes()).collect::<Vec<u8>>())?;
+        std::fs::write(out, field.iter().flat_map(|cost| cost.to_le_bytes()).collect::<Vec<u8>>())?;
     }
     Ok(json!({ "times_ms": times }))
 }

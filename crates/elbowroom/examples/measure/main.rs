@@ -4,7 +4,6 @@
 //! `measure plan SCENE TASK POINTS PLANNER OBJECTIVE RUNS`, `measure swarm RUNS`, `measure timing SCENE VIAS RUNS`.
 //! Times are of the wall (ms), set-up and answers' files left out; `RAYON_NUM_THREADS` says how many cores.
 
-mod cells;
 mod field;
 mod map;
 mod plan;

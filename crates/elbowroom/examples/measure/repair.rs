@@ -1,10 +1,9 @@
 use elbowroom::free_space::FreeSpace;
 use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::scene::{Place, Scene, Shape};
-use elbowroom::search::{Progress, Until};
+use elbowroom::search::{Graph, Lattice, Progress, Until};
 use serde_json::json;
 
-use super::cells::Cells;
 use super::field::from_scratch;
 use super::{Outcome, runs, scenes};
 
@@ -20,11 +19,11 @@ pub(crate) fn measure(file: &str, points: usize, runs: usize) -> Outcome {
     let mut found = Vec::new();
     for obstacle in 0..scene.obstacles.len() {
         let after = union(&moved(&scene, obstacle)?);
-        if !after.free[goal] {
+        if !after.is_free(goal) {
             continue;
         }
         let changed: Vec<usize> =
-            (0..after.free.len()).filter(|&cell| before.free[cell] != after.free[cell]).collect();
+            (0..after.len()).filter(|&cell| before.is_free(cell) != after.is_free(cell)).collect();
         let repaired = |until: Until| {
             // The copy to repair is made outside the time.
             let mut copies: Vec<_> = (0..runs + 1).map(|_| field.clone()).collect();
@@ -49,14 +48,14 @@ pub(crate) fn measure(file: &str, points: usize, runs: usize) -> Outcome {
             "cost": scratch.cost_to_go(start),
         }));
     }
-    Ok(json!({ "obstacles": found, "free": before.free.iter().filter(|&&free| free).count() }))
+    Ok(json!({ "obstacles": found, "free": (0..before.len()).filter(|&cell| before.is_free(cell)).count() }))
 }
 
 /// Where the tip may stand in some posture.
-fn union(scene: &Scene) -> Cells {
+fn union(scene: &Scene) -> Lattice {
     let space = FreeSpace::of(scene);
     let free = (0..scene.grid.len()).map(|cell| space.union_is_free(cell)).collect();
-    Cells { side: scene.grid.columns(), free }
+    Lattice::new(scene.grid.columns(), 1.0, free)
 }
 
 /// The scene with one obstacle a grid step to the right.
