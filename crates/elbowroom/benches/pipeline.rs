@@ -1,4 +1,5 @@
-//! From a scene to a motion on the paper's stand-in scene: the paper's way, and posture-true with the verifier.
+//! From a scene to a motion: the paper's way on its stand-in scene, and posture-true with the verifier, there and without
+//! obstacles.
 
 #![expect(clippy::expect_used, reason = "a benchmark that cannot be set up may panic")]
 
@@ -10,6 +11,7 @@ use elbowroom::scene::parse;
 use elbowroom::swarm::GuidedSwarmSettings;
 
 const SCENE: &str = include_str!("../../../python/elbowroom/scenes/paper-standin.yaml");
+const EMPTY: &str = include_str!("../../../python/elbowroom/scenes/paper-empty.yaml");
 
 fn pipeline(c: &mut Criterion) {
     let scene = parse(SCENE, "paper-standin.yaml").expect("the scene is sound").scene;
@@ -39,5 +41,19 @@ fn pipeline(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, pipeline);
+fn without_obstacles(c: &mut Criterion) {
+    let scene = parse(EMPTY, "paper-empty.yaml").expect("the scene is sound").scene;
+    let mut group = c.benchmark_group("pipeline");
+    group.sample_size(20);
+    for (task, optimum) in scene.tasks.iter().zip([1.244_680, 0.861_838]) {
+        let found = plan(&scene, task, &PlanSettings::default(), &Unwatched).expect("there is a path");
+        assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
+        group.bench_function(BenchmarkId::new("verified without obstacles, dstar-pso", &task.name), |b| {
+            b.iter(|| plan(black_box(&scene), task, &PlanSettings::default(), &Unwatched));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, pipeline, without_obstacles);
 criterion_main!(benches);

@@ -1,5 +1,5 @@
-/// The last step towards a root, as a share of the stretch. Newton's next one would be about the square of it, and at a
-/// turning point the value changes by the square of that.
+/// The last of Newton's steps towards a root, as a share of the stretch: the next would be about the square of it, and at
+/// a turning point the value changes by the square of that.
 const NEAR_ENOUGH: f64 = 1e-6;
 
 /// Steps after which a root is taken as it is; each at least halves the last one.
@@ -85,11 +85,11 @@ fn root_between<const N: usize>(
             high = root;
         }
         let newton = root - value / slope;
-        let sound = low < newton && newton < high && 2.0 * (newton - root).abs() < last_step;
+        let sound = low <= newton && newton <= high && 2.0 * (newton - root).abs() < last_step;
         let next = if sound { newton } else { 0.5 * (low + high) };
         last_step = (next - root).abs();
         root = next;
-        if last_step <= near {
+        if sound && last_step <= near {
             break;
         }
     }
