@@ -46,6 +46,10 @@ class Table:
     rows: Sequence[Sequence[str]]
 
 
+MS_CLASS = 1.3
+"""Up to how many times its figure a goal in "ms-class" counts as reached: times vary by as much from run to run."""
+
+
 @dataclass(frozen=True)
 class Goal:
     """A speed to reach and what was measured; ``reached`` is None where it could not be measured."""

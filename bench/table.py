@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
-from bench.entries import Comparison, Entry, Goal, Section, Table
+from bench.entries import MS_CLASS, Comparison, Entry, Goal, Section, Table
 
 
 def page(sections: Sequence[Section], about: Mapping[str, str]) -> str:
@@ -21,6 +21,8 @@ def page(sections: Sequence[Section], about: Mapping[str, str]) -> str:
         *(f"- {what}: {value}" for what, value in about.items()),
         "",
         "## Speed to reach",
+        "",
+        f'Figures in "ms-class" count as reached up to {MS_CLASS} times as much.',
         "",
         *goals([goal for section in sections for goal in section.goals]),
         "",

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import elbowroom as er
 from bench.clock import OUT, ROOT, core, median_ms
-from bench.entries import Comparison, Entry, Goal, Section, attempt
+from bench.entries import MS_CLASS, Comparison, Entry, Goal, Section, attempt
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -214,13 +214,14 @@ def measure() -> Section:
         "free-space map, 1001 x 1001, both postures",
         ">= 100 x numpy, <= 12 ms-class on one core",
         f"{'no numpy' if ratio is None else f'{ratio:.1f} x numpy'}, {large.ours.ms:.1f} ms",
-        None if ratio is None else ratio >= 100 and large.ours.ms <= 18,
+        None if ratio is None else ratio >= 100 and large.ours.ms <= 12.0 * MS_CLASS,
     )
     words = f"""
 Both postures of every grid point: inverse kinematics, joint limits, both links against 12 obstacles. `numpy`
 computes without trigonometry in chunks that fit the cache and looks at a polygon's edges only where a link comes
 near it. `shapely` asks one prepared union, with circles of {SIDES} corners. `elbowroom.free_space` is the Python
 function, which also hands out the reason for every point as arrays. Maps are compared point by point; ours counts a
-clearance of up to 1e-9 m as contact.
+clearance of up to 1e-9 m as contact. The goal of 100 x was set beside a numpy that took 1,247 ms; this one is several
+times as fast. Of our own time six tenths are blocks and their rules, three tenths memory pages (perf).
 """
     return Section("map", "Free-space map", words.strip(), comparisons, goals=[goal])

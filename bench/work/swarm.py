@@ -104,6 +104,8 @@ def measure() -> Section:
     words = f"""
 {PARTICLES} particles, {ITERATIONS} iterations, inertia {INERTIA}, both pulls {PULL} for all. The peers take an
 objective of all particles at once, ours one of each. Ours clamps speeds and positions to a box; the others are
-spared that. Local best: ours is a ring, pyswarms looks for the nearest particles anew each time.
+spared that. Local best: ours is a ring, pyswarms looks for the nearest particles anew each time. The goal of 20 x was
+set beside a pyswarms of 0.16 million updates/s; this one makes several times as many. A third of our own time goes into
+random numbers, half into moving the particles (perf).
 """
     return Section("swarm", "Particle swarm", words.strip(), [everybody, neighbours], goals=[goal])
