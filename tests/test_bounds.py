@@ -81,3 +81,19 @@ def test_a_wall_between_two_places_parts_them(standin: er.Scene) -> None:
     scene = er.Scene(arm=arm, grid=standin.grid, obstacles=[post], tasks=tasks)
     with pytest.raises(er.NoPath):
         er.plan(scene)
+
+
+@pytest.mark.parametrize("planner", ["dstar", "optimal"])
+def test_the_bound_of_time_heeds_only_what_binds_the_motion(standin: er.Scene, planner: str) -> None:
+    plan = er.plan(standin, task="first", planner=planner, objective="time", duration=0.5)  # type: ignore[arg-type]
+    assert plan.lower_bound is not None
+    assert plan.lower_bound <= plan.cost == pytest.approx(0.5)
+
+
+def test_a_locked_joint_is_no_proof(standin: er.Scene) -> None:
+    locked = er.Joint(min=1.0, max=1.0)
+    arm = replace(standin.arm, joints=(er.Joint(continuous=True), locked))
+    task = er.Task(start=er.Configuration((0.0, 1.0)), goal=er.Configuration((0.4, 1.0)), posture="keep")
+    scene = er.Scene(arm=arm, grid=standin.grid, tasks={"turn": task})
+    with pytest.raises(er.NotFound):
+        er.plan(scene, planner="optimal", objective="joint")

@@ -68,13 +68,13 @@ pub(crate) fn measure_of(objective: Objective, limits: &[SpeedLimits; 2]) -> Mea
 }
 
 /// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
-/// again: one of them covers all of it, and has to speed up and slow down.
+/// again: one of them covers all of it, and has to speed up and slow down. A joint without a greatest speed takes no time.
 fn from_rest_to_rest(way: f64, limits: &[SpeedLimits; 2]) -> f64 {
     let least = |limit: &SpeedLimits| {
         let speeding_up = limit.velocity / limit.acceleration;
         if way >= speeding_up { way + speeding_up } else { 2.0 * (way * speeding_up).sqrt() }
     };
-    limits.iter().map(least).fold(f64::INFINITY, f64::min)
+    limits.iter().filter(|limit| limit.velocity.is_finite()).map(least).reduce(f64::min).unwrap_or(0.0)
 }
 
 /// The shortest way of the tip among obstacles and around what it cannot reach, whatever the links touch (m): the
@@ -120,7 +120,13 @@ fn with_walls(
     let walls = Walls { inside: true, distance };
     let mut least = f64::INFINITY;
     let mut open = Vec::new();
-    for range in sheet_ranges(scene, &problem.starts, problem.may_flip) {
+    let ranges = sheet_ranges(scene, &problem.starts, problem.may_flip);
+    // A start on no sheet could go anywhere, for all that is known.
+    let on_none = |q: &&Configuration<2>| !ranges.iter().any(|range| is_in(scene, *range, q));
+    if let Some(q) = problem.starts.iter().find(on_none) {
+        return Err(BoundError::Place { q: q.0 });
+    }
+    for range in ranges {
         let chart = JointChart::new(scene, 0.0, range, walls, keep_going).ok_or(BoundError::Stopped)?;
         let starts = on_chart(scene, &chart, range, &problem.starts)?;
         let claim = OpenJoints {
@@ -154,13 +160,15 @@ fn on_chart(
     range: [f64; 2],
     places: &[Configuration<2>],
 ) -> Result<Vec<(Configuration<2>, SurfacePlace)>, BoundError> {
-    let in_range = |q: &&Configuration<2>| {
-        let angle = match scene.arm.joints()[1].limits {
-            JointLimits::Continuous => wrap_angle(q.0[1]),
-            JointLimits::Range { .. } => q.0[1],
-        };
-        (range[0]..=range[1]).contains(&angle)
-    };
     let place = |q: &Configuration<2>| Ok((*q, chart.place(q).ok_or(BoundError::Place { q: q.0 })?));
-    places.iter().filter(in_range).map(place).collect()
+    places.iter().filter(|q| is_in(scene, range, q)).map(place).collect()
+}
+
+/// Whether the second joint of `q` lies in `range` (rad), whole turns of a continuous one aside.
+fn is_in(scene: &Scene, range: [f64; 2], q: &Configuration<2>) -> bool {
+    let angle = match scene.arm.joints()[1].limits {
+        JointLimits::Continuous => wrap_angle(q.0[1]),
+        JointLimits::Range { .. } => q.0[1],
+    };
+    (range[0]..=range[1]).contains(&angle)
 }

@@ -47,8 +47,8 @@ impl Search {
     }
 }
 
-/// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with each joint at
-/// its greatest speed.
+/// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with
+/// each joint at its greatest speed.
 pub(crate) fn over_joints(
     scene: &Scene,
     problem: &Problem,

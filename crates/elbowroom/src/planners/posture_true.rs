@@ -24,12 +24,12 @@ const CLOSER: f64 = 0.1;
 /// after the other until there is a path, or a proof that there is none.
 const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
 
+/// The first for planners that do not go by them: a bound that costs a millisecond or two.
+const COARSE_DISTANCE: f64 = 1e-2;
+
 /// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
 /// more to prove than to look past.
 const WALLS_DEEPER: f64 = 2.0;
-
-/// The same for planners that do not go by it: a bound that costs a millisecond or two.
-const COARSE_DISTANCE: f64 = 1e-2;
 
 /// Plans `task`: a path over (place, posture) whose every step is certified free, and a motion along it that the
 /// verifier accepts.
@@ -76,7 +76,12 @@ impl<M: Monitor> Work<'_, M> {
     fn bound(&self, distance: f64) -> Result<Option<f64>, PlanError> {
         self.monitor.stage(Stage::Bound);
         let objective = self.settings.objective;
-        match prove(self.scene, &self.problem, objective, &self.limits, distance, self.monitor)? {
+        // A duration that was asked for heeds only the limits that the scene states.
+        let limits = match self.settings.pace {
+            Pace::Fastest => self.limits,
+            Pace::Duration(_) => stated_limits(&self.scene.arm),
+        };
+        match prove(self.scene, &self.problem, objective, &limits, distance, self.monitor)? {
             Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
             Proved::AtLeast(cost) => Ok(Some(cost)),
             Proved::Nothing => Ok(None),

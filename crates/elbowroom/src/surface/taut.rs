@@ -140,12 +140,19 @@ pub fn taut_path(
     for start in starts {
         search.start(start);
     }
+    // No shortest path is longer than one that goes round every cell; a search beyond that lost its way by rounding.
+    let longest: f64 = (0..surface.len())
+        .flat_map(|cell| {
+            let sides = surface.sides(cell);
+            (0..sides.len()).map(move |i| measure.of(sides[(i + 1) % sides.len()].from - sides[i].from))
+        })
+        .sum();
     let mut looks = 0_usize;
     while let Some(Waiting { node, goal, estimate }) = search.waiting.pop() {
         if let Some(goal) = goal {
             return Some(search.path(node, goal, estimate));
         }
-        if looks.is_multiple_of(NODES_PER_LOOK) && !keep_going() {
+        if estimate > longest || (looks.is_multiple_of(NODES_PER_LOOK) && !keep_going()) {
             return None;
         }
         looks += 1;

@@ -77,6 +77,9 @@ pub enum BoundError {
         /// Which of its sides.
         side: usize,
     },
+    /// The walls leave a way that the search for the shortest did not find.
+    #[error("the shortest way over the surface was lost in rounding")]
+    Lost,
     /// `keep_going` said no.
     #[error("stopped before the bound was proved")]
     Stopped,
@@ -123,8 +126,9 @@ pub fn bound_over_joints(
         return Ok(Reachability::Parted);
     }
     let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
-    let path =
-        taut_path(surface, &starts, &goals, measure, &images, keep_going).ok_or(BoundError::Stopped)?;
+    let Some(path) = taut_path(surface, &starts, &goals, measure, &images, keep_going) else {
+        return Err(if keep_going() { BoundError::Lost } else { BoundError::Stopped });
+    };
     let rounding = 2.0 * measure.of(Vector::new(ANGLE_ROUNDING, ANGLE_ROUNDING));
     let cost = (path.cost * (1.0 - SUM_ROUNDING) - rounding).max(0.0);
     Ok(Reachability::AtLeast { cost, path })

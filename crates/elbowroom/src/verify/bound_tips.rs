@@ -60,14 +60,16 @@ pub fn bound_over_tips(
     }
     let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
     let tips: Vec<Point> = claim.goals.iter().map(|q| arm.tip(q)).collect();
-    let goals = places_of(surface, &vec![true; surface.len()], &tips);
+    let reached = surface.reached_from(starts.iter().map(|start| start.cell));
+    let goals = places_of(surface, &reached, &tips);
     match taut_path(surface, &starts, &goals, Measure::Euclidean, &tips, keep_going) {
         Some(path) => {
             // Places are as near to the tips as rounding lets them be.
             let cost = path.cost * (1.0 - SUM_ROUNDING) - 2.0 * TIP_ROUNDING * size;
             Ok(Reachability::AtLeast { cost: cost.max(0.0), path })
         }
-        None if keep_going() => Ok(Reachability::Parted),
+        None if goals.is_empty() => Ok(Reachability::Parted),
+        None if keep_going() => Err(BoundError::Lost),
         None => Err(BoundError::Stopped),
     }
 }
