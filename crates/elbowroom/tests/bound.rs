@@ -339,17 +339,12 @@ fn walls_that_the_verifier_accepts_are_blocked_all_along() {
                 let place = SurfacePlace { cell: 0, point: Point::new(at[plane][0], at[plane][1]) };
                 let ends = [(Configuration(q), place)];
                 let (found, gap) = if plane == 0 {
-                    let claim = OpenJoints {
-                        surface: &surface,
-                        starts: &ends,
-                        goals: &[],
-                        keeps_posture: false,
-                        margin: 0.0,
-                    };
+                    let claim =
+                        OpenJoints { surface: &surface, starts: &ends, goals: &[], keeps_posture: false };
                     let gap = has_a_gap(&surface, |p| judge::clearance(&scene, [p.x, p.y]));
                     (bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true), gap)
                 } else {
-                    let claim = OpenTips { surface: &surface, starts: &ends, goals: &[], margin: 0.0 };
+                    let claim = OpenTips { surface: &surface, starts: &ends, goals: &[] };
                     let clear = |p: Point| {
                         let to =
                             scene.obstacles.iter().map(|o| distance::distance(o, [p.x, p.y], [p.x, p.y]));
@@ -393,8 +388,7 @@ fn claims_that_the_arm_does_not_bear_out_are_refused() {
     let at = |q: Configuration<2>, x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });
     let judged = |surface: &Surface, start: (Configuration<2>, SurfacePlace)| {
         let starts = [start];
-        let claim =
-            OpenJoints { surface, starts: &starts, goals: &[middle], keeps_posture: false, margin: 0.0 };
+        let claim = OpenJoints { surface, starts: &starts, goals: &[middle], keeps_posture: false };
         bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true)
     };
     assert!(matches!(judged(&round, at(middle, 0.5)), Err(BoundError::Seam { cell: 0, side: 1 })));

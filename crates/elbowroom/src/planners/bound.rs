@@ -89,7 +89,7 @@ fn tip_bound(
     let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
     let place = |q: &Configuration<2>| Some((*q, chart.place(scene.arm.tip(q))?));
     if let Some(starts) = problem.starts.iter().map(place).collect::<Option<Vec<_>>>() {
-        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &problem.goals, margin: 0.0 };
+        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &problem.goals };
         match bound_over_tips(scene, &claim, keep_going) {
             Ok(Reachability::AtLeast { cost, .. }) => return Ok(cost),
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -134,7 +134,6 @@ fn with_walls(
             starts: &starts,
             goals: &problem.goals,
             keeps_posture: !problem.may_flip,
-            margin: 0.0,
         };
         match bound_over_joints(scene, &claim, measure, keep_going)? {
             Reachability::AtLeast { cost, .. } => least = least.min(cost),

@@ -13,8 +13,6 @@ pub(super) struct Blocked<'a> {
     base: [f64; 2],
     lengths: [f64; 2],
     half_width: f64,
-    /// Clearance (m) up to which a configuration counts as blocked.
-    margin: f64,
     bodies: Vec<(Body<'a>, f64)>,
 }
 
@@ -22,7 +20,7 @@ pub(super) struct Blocked<'a> {
 type Witness = Option<(usize, usize)>;
 
 impl<'a> Blocked<'a> {
-    pub(super) fn new(scene: &'a Scene, margin: f64) -> Self {
+    pub(super) fn new(scene: &'a Scene) -> Self {
         let arm = &scene.arm;
         let (base, [l1, l2]) = (arm.base(), arm.lengths());
         let reach = base.x.abs() + base.y.abs() + l1 + l2 + arm.half_width();
@@ -35,7 +33,6 @@ impl<'a> Blocked<'a> {
             base: [base.x, base.y],
             lengths: [l1, l2],
             half_width: arm.half_width(),
-            margin,
             bodies: bodies.collect(),
         }
     }
@@ -52,10 +49,7 @@ impl<'a> Blocked<'a> {
         let middle = from.lerp(to, 0.5);
         let half = 0.5 * from.distance(to);
         let axis = Axis { start: [middle.x, middle.y], along: [1.0, 0.0], length: 0.0 };
-        let depths = self
-            .bodies
-            .iter()
-            .map(|(body, rounding)| body.depth(&axis, self.half_width + self.margin) - rounding);
+        let depths = self.bodies.iter().map(|(body, rounding)| body.depth(&axis, self.half_width) - rounding);
         let deepest = depths.fold(f64::NEG_INFINITY, f64::max);
         deepest > half
             || (deepest > 0.0
@@ -118,6 +112,6 @@ impl<'a> Blocked<'a> {
     /// How far every point of a link may move (m) with the link still touching; 0 or less where it does not touch.
     fn depth(&self, axes: &[Axis; 2], link: usize, body: usize) -> f64 {
         let (body, rounding) = &self.bodies[body];
-        body.depth(&axes[link], self.half_width + self.margin) - rounding
+        body.depth(&axes[link], self.half_width) - rounding
     }
 }

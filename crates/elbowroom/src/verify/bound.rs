@@ -26,8 +26,6 @@ pub struct OpenJoints<'a> {
     pub goals: &'a [Configuration<2>],
     /// Whether the posture must not change: walls may stand at full stretch and fold.
     pub keeps_posture: bool,
-    /// Clearance that is asked for (m): what comes nearer counts as blocked.
-    pub margin: f64,
 }
 
 /// What is known of every motion from a start to a goal.
@@ -88,7 +86,7 @@ pub enum BoundError {
 /// A lower bound of the cost of every motion from any of the starts to any of the goals, or the proof that there is
 /// none: every wall that can be reached is shown to be blocked, and the shortest way among them is exact.
 ///
-/// The walls may come from anywhere; a motion that is clear by more than the margin passes none of them, so that it
+/// The walls may come from anywhere; a motion that touches nothing passes none of them, so that it
 /// is a path on the surface.
 ///
 /// # Errors
@@ -110,7 +108,7 @@ pub fn bound_over_joints(
         JointLimits::Range { .. } => way == 0.0,
     })?;
     let reached = surface.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
-    let blocked = Blocked::new(scene, claim.margin);
+    let blocked = Blocked::new(scene);
     let stands = |from: Point, to: Point| {
         at_stop(scene, from, to)
             || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)

@@ -19,8 +19,6 @@ pub struct OpenTips<'a> {
     pub starts: &'a [(Configuration<2>, SurfacePlace)],
     /// The goals; where they are on the surface is found out.
     pub goals: &'a [Configuration<2>],
-    /// Clearance that is asked for (m): what comes nearer counts as blocked.
-    pub margin: f64,
 }
 
 /// A lower bound of the tip travel (m) of every motion from any of the starts to any of the goals: every wall is shown
@@ -43,7 +41,7 @@ pub fn bound_over_tips(
             return Err(BoundError::Place { q: q.0 });
         }
     }
-    let blocked = Blocked::new(scene, claim.margin);
+    let blocked = Blocked::new(scene);
     let hole = innermost_reach(arm) - TIP_ROUNDING * size;
     let in_hole = |p: Point| p.distance(arm.base()) <= hole;
     let out_of_reach = |a: Point, b: Point| {
