@@ -19,7 +19,7 @@ use elbowroom::geometry::{Point, Vector};
 use elbowroom::path::sweep_keeps;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Scene, Task, TaskPosture};
-use elbowroom::surface::{Across, Crossing, Measure, Side, Surface, SurfacePlace};
+use elbowroom::surface::{Across, Measure, Side, Surface, SurfacePlace};
 use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What brute force finds.
@@ -382,7 +382,7 @@ fn claims_that_the_arm_does_not_bear_out_are_refused() {
         (0..4).map(side).collect::<Vec<_>>()
     };
     // A square that goes on at its own other end, as if a joint turned round after a radian.
-    let to = |side, x| Some(Across { cell: 0, side, crossing: Crossing::Shift(Vector::new(x, 0.0)) });
+    let to = |side, x| Some(Across { cell: 0, side, shift: Vector::new(x, 0.0) });
     let round = Surface::new(&[square([None, to(3, -1.0), None, to(1, 1.0)])]).unwrap();
     let middle = Configuration([0.5, 0.5]);
     let at = |q: Configuration<2>, x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });

@@ -1,9 +1,9 @@
-//! Shortest paths on surfaces against a visibility graph, on maps of squares: plain, wrapped round, and folded.
+//! Shortest paths on surfaces against a visibility graph, on maps of squares: plain and wrapped round.
 
 #![expect(clippy::unwrap_used, reason = "a map of squares that makes no surface may panic")]
 
 use elbowroom::geometry::{Point, Vector};
-use elbowroom::surface::{Across, Crossing, Measure, Side, Surface, SurfaceError, SurfacePlace, taut_path};
+use elbowroom::surface::{Across, Measure, Side, Surface, SurfaceError, SurfacePlace, taut_path};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -97,7 +97,7 @@ impl Squares {
                 let across = self.free(c, r).then(|| Across {
                     cell: number[(r * columns + c) as usize],
                     side: (i + 2) % 4,
-                    crossing: Crossing::Shift(shift),
+                    shift,
                 });
                 Side { from, across }
             };
@@ -286,54 +286,6 @@ fn maps_that_wrap_round_agree_with_their_copies_side_by_side() {
     }
 }
 
-/// Two sheets that meet along x = 0, both drawn to the right of it: unfolded one map.
-#[test]
-fn folded_maps_agree_with_the_unfolded_one() {
-    for seed in 0..600 {
-        let mut rng = ChaCha8Rng::seed_from_u64(2_000_000 + seed);
-        let unfolded = Squares::random(8, 6, 0.1 + 0.4 * unit(&mut rng), false, &mut rng);
-        let (Some(start), Some(goal)) = (unfolded.place(&mut rng, false), unfolded.place(&mut rng, false))
-        else {
-            continue;
-        };
-        let (plain, number) = unfolded.surface(false);
-        // Cells left of x = 4 are mirrored there; their sides run the other way round.
-        let mirror = |point: Point| Point::new(8.0 - point.x, point.y);
-        let is_left = |cell: usize| plain.sides(cell).iter().all(|side| side.from.x <= 4.0);
-        let folded_side = |cell: usize, side: usize| if is_left(cell) { (6 - side) % 4 } else { side };
-        let cells: Vec<Vec<Side>> = (0..plain.len())
-            .map(|cell| {
-                let sides = plain.sides(cell);
-                let mut folded = sides.to_vec();
-                for i in 0..4 {
-                    let across = sides[i].across.map(|across| Across {
-                        cell: across.cell,
-                        side: folded_side(across.cell, across.side),
-                        crossing: if is_left(cell) == is_left(across.cell) {
-                            Crossing::Shift(Vector::default())
-                        } else {
-                            Crossing::Fold
-                        },
-                    });
-                    let from = if is_left(cell) { mirror(sides[(i + 1) % 4].from) } else { sides[i].from };
-                    folded[folded_side(cell, i)] = Side { from, across };
-                }
-                folded
-            })
-            .collect();
-        let surface = Surface::new(&cells).unwrap();
-        let place = |(cell, point): (usize, Point)| {
-            let cell = number[cell];
-            SurfacePlace { cell, point: if is_left(cell) { mirror(point) } else { point } }
-        };
-        let images = [place(goal).point];
-        let path =
-            taut_path(&surface, &[place(start)], &[place(goal)], Measure::Euclidean, &images, &|| true);
-        let judged = by_visibility(&unfolded, start.1, &[goal.1], Measure::Euclidean);
-        agree(path.map(|path| path.cost), judged, &format!("seed {seed}"));
-    }
-}
-
 #[test]
 fn what_is_no_surface_is_refused() {
     let square = |across: Option<Across>| -> Vec<Side> {
@@ -343,8 +295,7 @@ fn what_is_no_surface_is_refused() {
         sides[1].across = across;
         sides
     };
-    let plain = Crossing::Shift(Vector::default());
-    let to = |cell, side| Some(Across { cell, side, crossing: plain });
+    let to = |cell, side| Some(Across { cell, side, shift: Vector::default() });
     assert_eq!(Surface::new(&[square(to(7, 3))]), Err(SurfaceError::Seam { cell: 0, side: 1 }));
     assert_eq!(Surface::new(&[square(to(0, 1))]), Err(SurfaceError::Seam { cell: 0, side: 1 }));
     let clockwise: Vec<Side> = square(None).into_iter().rev().collect();

@@ -11,16 +11,6 @@ const ROUNDING: f64 = 1e-12;
 /// Angles that differ by less than this (rad) count as equal, in favour of letting paths bend.
 const ANGLE_ROUNDING: f64 = 1e-9;
 
-/// How the plane goes on beyond a side.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Crossing {
-    /// The neighbour's plane is this one moved by so much: zero within one plane.
-    Shift(Vector),
-    /// The neighbour lies on the same side of the line: the surface is folded along it, like the two postures of
-    /// an arm along full stretch.
-    Fold,
-}
-
 /// What lies beyond a side of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Across {
@@ -28,8 +18,8 @@ pub struct Across {
     pub cell: usize,
     /// Which of its sides is this one.
     pub side: usize,
-    /// How its plane joins this one.
-    pub crossing: Crossing,
+    /// By how much the neighbour's plane is moved against this one: zero within one plane.
+    pub shift: Vector,
 }
 
 /// One side of a cell: from its point to that of the next side.
@@ -181,13 +171,10 @@ impl Surface {
             };
             let (a, b) = (side.from, sides[(i + 1) % sides.len()].from);
             let (c, d) = (other[across.side].from, other[(across.side + 1) % other.len()].from);
-            let apart = match (across.crossing, back.crossing) {
-                (Crossing::Shift(there), Crossing::Shift(here)) => {
-                    (a + there).distance(d).max((b + there).distance(c)).max((there + here).length())
-                }
-                (Crossing::Fold, Crossing::Fold) => a.distance(c).max(b.distance(d)),
-                _ => f64::INFINITY,
-            };
+            let apart = (a + across.shift)
+                .distance(d)
+                .max((b + across.shift).distance(c))
+                .max((across.shift + back.shift).length());
             if !(back.cell == cell && back.side == i && apart <= self.rounding) {
                 return Err(SurfaceError::Seam { cell, side: i });
             }
@@ -204,23 +191,15 @@ impl Surface {
             let begin = self.begins[cell] as usize;
             for side in begin..self.begins[cell + 1] as usize {
                 let next = self.next(cell, side);
-                let Some(Across { cell: there, side: across, crossing }) = self.sides[side].across else {
+                let Some(Across { cell: there, side: across, .. }) = self.sides[side].across else {
                     at_wall[side] = true;
                     at_wall[next] = true;
                     continue;
                 };
                 let across = self.begins[there] as usize + across;
                 let across_next = self.next(there, across);
-                match crossing {
-                    Crossing::Shift(_) => {
-                        joined.join(side, across_next);
-                        joined.join(next, across);
-                    }
-                    Crossing::Fold => {
-                        joined.join(side, across);
-                        joined.join(next, across_next);
-                    }
-                }
+                joined.join(side, across_next);
+                joined.join(next, across);
             }
         }
         let mut angles = vec![0.0; self.sides.len()];

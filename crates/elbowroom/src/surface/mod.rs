@@ -5,6 +5,6 @@ mod measure;
 mod sight;
 mod taut;
 
-pub use cells::{Across, Crossing, Side, Surface, SurfaceError};
+pub use cells::{Across, Side, Surface, SurfaceError};
 pub use measure::Measure;
 pub use taut::{SurfacePlace, TautPath, taut_path};

@@ -53,9 +53,3 @@ pub(super) fn crossing_of(from: Point, to: Point, a: Point, b: Point) -> Point {
     };
     a.lerp(b, share.clamp(0.0, 1.0))
 }
-
-pub(super) fn mirrored(point: Point, a: Point, b: Point) -> Point {
-    let along = b - a;
-    let off = along.cross(point - a) / along.length_squared();
-    point + Vector::new(along.y, -along.x) * (2.0 * off)
-}

@@ -6,8 +6,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::Measure;
-use super::cells::{Across, Crossing, NONE, Surface};
-use super::sight::{below, crossing_of, mirrored, seen, snapped};
+use super::cells::{Across, NONE, Surface};
+use super::sight::{below, crossing_of, seen, snapped};
 use crate::geometry::{Point, Vector};
 
 /// Costs that differ by less than this share are the same: paths to one vertex may differ in what they see beyond.
@@ -108,7 +108,7 @@ impl Ord for Waiting {
 ///
 /// # Reference
 /// Cui, Harabor and Grastien, *Compromise-free pathfinding on a navigation mesh*, IJCAI 2017 (Polyanya); here on
-/// surfaces that may wrap round and fold.
+/// surfaces that may wrap round.
 pub fn taut_path(
     surface: &Surface,
     starts: &[SurfacePlace],
@@ -326,7 +326,7 @@ impl Search<'_> {
         (root, root_vertex, cost): (Point, u32, f64),
         bent: Bent,
     ) {
-        let Stretch { side, p, q, from, to, across } = *stretch;
+        let Stretch { side, from, to, across, .. } = *stretch;
         let cell = node.cell as usize;
         let (right, right_vertex) = stretch.end(from, self.surface.vertices[side], NONE);
         let (left, left_vertex) = stretch.end(to, NONE, self.surface.vertices[self.surface.next(cell, side)]);
@@ -340,31 +340,19 @@ impl Search<'_> {
             }
             *turned = cost;
         }
-        let mut next = Node {
+        let next = Node {
             cell: across.cell as u32,
             side: self.surface.begins[across.cell] + across.side as u32,
-            left,
-            right,
+            left: left + across.shift,
+            right: right + across.shift,
             left_vertex,
             right_vertex,
-            root,
+            root: root + across.shift,
             root_vertex,
             cost,
             parent,
             bent,
         };
-        match across.crossing {
-            Crossing::Shift(shift) => {
-                next.left = left + shift;
-                next.right = right + shift;
-                next.root = root + shift;
-            }
-            Crossing::Fold => {
-                next.root = mirrored(root, p, q);
-                std::mem::swap(&mut next.left, &mut next.right);
-                std::mem::swap(&mut next.left_vertex, &mut next.right_vertex);
-            }
-        }
         let to_side = self.measure.to_line(next.root, next.left, next.right);
         let estimate = cost + to_side + self.least_to_go(across.cell);
         self.nodes.push(next);
@@ -388,17 +376,12 @@ impl Search<'_> {
                 break;
             }
             let enters = crossing_of(node.root, target, node.left, node.right);
-            let side = &self.surface.sides[node.side as usize];
             // The side knows the way back, out of the cell entered.
-            let (shift, back) = match side.across.map(|across| across.crossing) {
-                Some(Crossing::Shift(shift)) => (-shift, target + shift),
-                _ => {
-                    let next = self.surface.next(node.cell as usize, node.side as usize);
-                    (Vector::default(), mirrored(target, side.from, self.surface.sides[next].from))
-                }
-            };
-            places.push((enters, node.cell, shift));
-            target = back;
+            let back = self.surface.sides[node.side as usize]
+                .across
+                .map_or(Vector::default(), |across| across.shift);
+            places.push((enters, node.cell, -back));
+            target = target + back;
             bent = node.bent;
             at = node.parent;
         }

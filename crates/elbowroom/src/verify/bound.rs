@@ -6,7 +6,7 @@ use super::blocked::Blocked;
 use crate::arm::{Configuration, JointLimits};
 use crate::geometry::{Point, Vector};
 use crate::scene::Scene;
-use crate::surface::{Crossing, Measure, Surface, SurfacePlace, TautPath, taut_path};
+use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
 const ANGLE_ROUNDING: f64 = 1e-9;
@@ -137,10 +137,7 @@ pub(super) fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> boo
     for cell in 0..surface.len() {
         for (side, across) in surface.sides(cell).iter().enumerate().filter_map(|(i, s)| Some((i, s.across?)))
         {
-            let sound = match across.crossing {
-                Crossing::Shift(way) => is_same(0, way.x) && is_same(1, way.y),
-                Crossing::Fold => false,
-            };
+            let sound = is_same(0, across.shift.x) && is_same(1, across.shift.y);
             if !sound {
                 return Err(BoundError::Seam { cell, side });
             }

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use super::slabs::Slab;
 use crate::geometry::{Point, Vector};
-use crate::surface::{Across, Crossing, Side, Surface, SurfaceError, SurfacePlace};
+use crate::surface::{Across, Side, Surface, SurfaceError, SurfacePlace};
 
 /// Stretches shorter than this are left out, and places no farther outside a cell are in it: rounding.
 const SHORTEST: f64 = 1e-12;
@@ -139,7 +139,7 @@ pub(super) fn sew(stretches: Vec<Stretch>, range: [f64; 2], round: bool) -> Resu
             let shift = Vector::new(at_right[gate.left][at].3, 0.0);
             let (right_side, left_side) =
                 (gate_sides[right][rights + count - 1 - k], gate_sides[gate.left][at]);
-            let to = |cell, side, shift| Some(Across { cell, side, crossing: Crossing::Shift(shift) });
+            let to = |cell, side, shift| Some(Across { cell, side, shift });
             cells[right][right_side].across = to(gate.left, left_side, shift);
             cells[gate.left][left_side].across = to(right, right_side, -shift);
         }
@@ -150,9 +150,7 @@ pub(super) fn sew(stretches: Vec<Stretch>, range: [f64; 2], round: bool) -> Resu
             continue;
         }
         if let (Some(bottom), Some(top)) = (bottoms[first], tops[end - 1]) {
-            let to = |cell, side, shift| {
-                Some(Across { cell, side, crossing: Crossing::Shift(Vector::new(0.0, shift)) })
-            };
+            let to = |cell, side, shift| Some(Across { cell, side, shift: Vector::new(0.0, shift) });
             cells[first][bottom].across = to(end - 1, top, TAU);
             cells[end - 1][top].across = to(first, bottom, -TAU);
         }
