@@ -2,6 +2,7 @@
 
 mod cells;
 mod measure;
+mod node;
 mod sight;
 mod taut;
 

@@ -2,11 +2,11 @@
 //! stretch is seen. Nothing is discretised: the result is exact up to rounding, and rounding lets paths see past
 //! corners rather than hide behind them.
 
-use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::Measure;
 use super::cells::{Across, NONE, Surface};
+use super::node::{Bent, Goal, Node, Waiting};
 use super::sight::{below, crossing_of, seen, snapped};
 use crate::geometry::{Point, Vector};
 
@@ -38,66 +38,6 @@ pub struct TautPath {
     pub places: Vec<SurfacePlace>,
     /// For each place, how far planes were shifted since the start.
     pub shifts: Vec<Vector>,
-}
-
-#[derive(Clone, Copy)]
-struct Node {
-    /// The cell entered, or the one that holds the goal.
-    cell: u32,
-    /// The side it is entered by; `NONE` at the start.
-    side: u32,
-    /// The stretch of that side, in the cell's plane.
-    left: Point,
-    right: Point,
-    left_vertex: u32,
-    right_vertex: u32,
-    /// The last bend, in the cell's plane, and its vertex.
-    root: Point,
-    root_vertex: u32,
-    cost: f64,
-    parent: u32,
-    /// At which end of the parent's stretch the path bent.
-    bent: Bent,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Bent {
-    No,
-    Left,
-    Right,
-}
-
-/// A node waiting, or the end of a path; the cheapest comes first, then the eldest.
-struct Waiting {
-    estimate: f64,
-    node: u32,
-    goal: Option<Goal>,
-}
-
-#[derive(Clone, Copy)]
-struct Goal {
-    point: Point,
-    bent: Bent,
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.estimate.total_cmp(&self.estimate).then(other.node.cmp(&self.node))
-    }
 }
 
 /// The cheapest path from one of `starts` to one of `goals`, or `None` if walls part them all, or `keep_going`,
