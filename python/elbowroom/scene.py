@@ -35,12 +35,16 @@ class Joint:
 
 @dataclass(frozen=True, kw_only=True)
 class Arm:
-    """A planar arm: link lengths (m) and joints, base first. Links are capsules of ``half_width`` (m)."""
+    """A planar arm: lengths (m) of two or more links, and joints, base first. Links are capsules of ``half_width`` (m).
+
+    With ``self_collision`` links that are not neighbours must keep clear of each other.
+    """
 
     links: Sequence[float]
     joints: Sequence[Joint]
     half_width: float = 0.0
     base: Pair = (0.0, 0.0)
+    self_collision: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +77,7 @@ class Polygon:
 class Configuration:
     """Joint angles, base first (rad): a start or goal given by the joints."""
 
-    q: Pair
+    q: Sequence[float]
 
 
 Place = Pair | Configuration

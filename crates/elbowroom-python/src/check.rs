@@ -1,3 +1,4 @@
+use elbowroom::arm::Arm;
 use elbowroom::planners::Monitor;
 use elbowroom::trajectory::{Samples, interpolate};
 use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_until};
@@ -26,9 +27,9 @@ pub(crate) fn interpolated(
 ) -> PyResult<(Motion, &'static str)> {
     let samples = Samples {
         times: times.as_array().to_vec(),
-        positions: pairs(py, &positions)?,
-        velocities: velocities.map(|values| pairs(py, &values)).transpose()?,
-        accelerations: accelerations.map(|values| pairs(py, &values)).transpose()?,
+        positions: rows(&positions),
+        velocities: velocities.map(|values| rows(&values)),
+        accelerations: accelerations.map(|values| rows(&values)),
     };
     let (motion, curve) =
         interpolate(&samples).map_err(|error| errors::trajectory(py, &error.to_string()))?;
@@ -46,6 +47,11 @@ pub(crate) fn verify<'py>(
     margin: f64,
     timeout: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let (joints, moved) = (scene.scene.arm.lengths().len(), motion.0.joints());
+    if joints != moved {
+        let message = format!("it moves {moved} joints; the arm of the scene has {joints}");
+        return Err(errors::trajectory(py, &message));
+    }
     if !(margin.is_finite() && margin >= 0.0) {
         return Err(errors::setting(
             py,
@@ -60,22 +66,18 @@ pub(crate) fn verify<'py>(
     };
     let settings = VerifySettings { margin, continuous, ..VerifySettings::default() };
     let (found, _) = watch::run(py, timeout, None, |watch| {
-        verify_until(&scene.0, &motion.0, &settings, &|| watch.keep_going())
+        verify_until(&scene.scene, &motion.0, &settings, &|| watch.keep_going())
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));
     }
-    verdict::as_dict(py, &scene.0, &found)
+    verdict::as_dict(py, &scene.scene, &found)
 }
 
 fn was_stopped(found: &Verdict) -> bool {
     found.violations.iter().any(|violation| matches!(violation, Violation::Stopped { .. }))
 }
 
-fn pairs(py: Python<'_>, values: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 2]>> {
-    if values.as_array().ncols() != 2 {
-        let message = format!("{} columns; an arm of 2 joints has 2", values.as_array().ncols());
-        return Err(errors::trajectory(py, &message));
-    }
-    Ok(values.as_array().rows().into_iter().map(|row| [row[0], row[1]]).collect())
+fn rows(values: &PyReadonlyArray2<'_, f64>) -> Vec<Vec<f64>> {
+    values.as_array().rows().into_iter().map(|row| row.to_vec()).collect()
 }

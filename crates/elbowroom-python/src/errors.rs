@@ -1,11 +1,10 @@
 //! From the core's typed errors to the classes of `elbowroom.errors`.
 
-use elbowroom::arm::Configuration;
 use elbowroom::free_space::{NotFree, Reason};
 use elbowroom::planners::{PaperError, PlanError};
 use elbowroom::scene::{Place, SceneError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyTuple};
 
 /// The exception `elbowroom.errors.<class>(message, **fields)`.
 fn exception<'py>(
@@ -56,9 +55,9 @@ pub(crate) fn not_free(py: Python<'_>, task: &str, end: &str, refused: &NotFree)
     exception(py, "NotFree", &format!("{end}: {refused}"), |fields| {
         fields.set_item("task", task)?;
         fields.set_item("end", end)?;
-        match refused.place {
+        match &refused.place {
             Place::Tip(tip) => fields.set_item("tip", (tip.x, tip.y))?,
-            Place::Configuration(Configuration([q1, q2])) => fields.set_item("configuration", (q1, q2))?,
+            Place::Configuration(q) => fields.set_item("configuration", PyTuple::new(py, q)?)?,
         }
         let reasons = PyList::empty(py);
         for (posture, reason) in &refused.reasons {
@@ -93,6 +92,12 @@ fn reason_fields<'py>(
             fields.set_item("link", link)?;
             fields.set_item("obstacle", obstacle)?;
             fields.set_item("name", name)?;
+            fields.set_item("depth", depth)?;
+        }
+        Reason::SelfCollision { link, other, depth } => {
+            fields.set_item("reason", "self_collision")?;
+            fields.set_item("link", link)?;
+            fields.set_item("other_link", other)?;
             fields.set_item("depth", depth)?;
         }
     }
@@ -163,6 +168,11 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
             fields.set_item("goals", &proof.goals)
         }),
         PlanError::Gap { .. } => setting(py, "gap", &message),
+        PlanError::OtherArm { .. } => setting(py, "planner", &message),
+        PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
+        PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => {
+            exception(py, "NotFound", &message, |fields| fields.set_item("step", py.None()))
+        }
         PlanError::Stopped => timed_out(py, timeout),
         PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
     }

@@ -66,11 +66,12 @@ impl FreeSpace {
 #[pyfunction]
 #[pyo3(signature = (scene, *, timeout=None))]
 pub(crate) fn free_space(py: Python<'_>, scene: &Scene, timeout: Option<f64>) -> PyResult<FreeSpace> {
+    let two_link = scene.two_link(py, "a map per posture")?;
     let (found, _) = watch::run(py, timeout, None, |watch| {
-        let space = elbowroom::free_space::FreeSpace::of_until(&scene.0, &|| watch.keep_going())?;
-        let cases = space.cases(&scene.0);
+        let space = elbowroom::free_space::FreeSpace::of_until(two_link, &|| watch.keep_going())?;
+        let cases = space.cases(two_link);
         Some((space, cases))
     })?;
     let (space, cases) = found.ok_or_else(|| errors::timed_out(py, timeout))?;
-    Ok(FreeSpace { space, cases, shape: (scene.0.grid.rows(), scene.0.grid.columns()) })
+    Ok(FreeSpace { space, cases, shape: (two_link.grid.rows(), two_link.grid.columns()) })
 }

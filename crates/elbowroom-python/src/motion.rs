@@ -5,9 +5,9 @@ use pyo3::prelude::*;
 
 /// Polynomial pieces over time, one after the other; nothing says that an arm may run them.
 #[pyclass(frozen, module = "elbowroom._core")]
-pub(crate) struct Motion(pub(crate) trajectory::Motion<2>);
+pub(crate) struct Motion(pub(crate) trajectory::Motion);
 
-/// Positions, velocities, accelerations and jerks, shape (n, 2) each.
+/// Positions, velocities, accelerations and jerks, shape (n, joints) each.
 type Samples<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
@@ -40,15 +40,17 @@ impl Motion {
     #[getter]
     fn coefficients<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray3<f64>> {
         let pieces = self.0.pieces();
-        Array3::from_shape_fn((pieces.len(), 2, 6), |(i, j, k)| pieces[i].coefficients[j][k]).into_pyarray(py)
+        Array3::from_shape_fn((pieces.len(), self.0.joints(), 6), |(i, j, k)| pieces[i].coefficients[j][k])
+            .into_pyarray(py)
     }
 
-    /// Return joint positions, velocities, accelerations and jerks at ``times`` (s), shape ``(n, 2)`` each.
+    /// Return joint positions, velocities, accelerations and jerks at ``times`` (s), shape ``(n, joints)`` each.
     fn sample<'py>(&self, py: Python<'py>, times: PyReadonlyArray1<'py, f64>) -> Samples<'py> {
         let states: Vec<_> = times.as_array().iter().map(|&t| self.0.at(t)).collect();
-        let array = |of: fn(&trajectory::State<2>) -> [f64; 2]| {
-            Array2::from_shape_fn((states.len(), 2), |(i, j)| of(&states[i])[j]).into_pyarray(py)
+        let array = |of: fn(&trajectory::State) -> &Vec<f64>| {
+            Array2::from_shape_fn((states.len(), self.0.joints()), |(i, j)| of(&states[i])[j])
+                .into_pyarray(py)
         };
-        (array(|s| s.position), array(|s| s.velocity), array(|s| s.acceleration), array(|s| s.jerk))
+        (array(|s| &s.position), array(|s| &s.velocity), array(|s| &s.acceleration), array(|s| &s.jerk))
     }
 }

@@ -1,8 +1,9 @@
-use elbowroom::arm::Posture;
+use elbowroom::arm::{Configuration, Posture};
 use elbowroom::path::{JointPath, JumpKind, TipPath};
 use elbowroom::planners::{self, Method, PaperSettings};
 use elbowroom::swarm::GuidedSwarmSettings;
-use numpy::PyArray2;
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -120,7 +121,8 @@ pub(crate) fn plan_as_in_paper(
         Method::Dstar
     };
     let settings = PaperSettings { method, seed, vias, duration };
-    let work = |watch: &watch::Watch| planners::plan_as_in_paper(&scene.0, asked, &settings, watch);
+    let two_link = scene.two_link(py, "the paper's system")?;
+    let work = |watch: &watch::Watch| planners::plan_as_in_paper(two_link, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::paper(py, task, timeout, &error))?;
     Ok(PaperPlan { plan, timings })
@@ -130,10 +132,20 @@ pub(crate) fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<
     points(py, path.0.iter().map(|p| [p.x, p.y]))
 }
 
-pub(crate) fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
-    points(py, path.0.iter().map(|q| q.0))
+/// An array of shape (n, joints).
+pub(crate) fn configurations<'py, Q: AsRef<[f64]>>(
+    py: Python<'py>,
+    path: &JointPath<Q>,
+) -> Bound<'py, PyArray2<f64>> {
+    let joints = path.0.first().map_or(0, |q| q.as_ref().len());
+    Array2::from_shape_fn((path.0.len(), joints), |(i, j)| path.0[i].as_ref()[j]).into_pyarray(py)
 }
 
-pub(crate) fn postures(path: &JointPath) -> Vec<Option<&'static str>> {
-    path.0.iter().map(|q| Posture::of(q).map(Posture::name)).collect()
+/// The posture of each configuration of two joints.
+pub(crate) fn postures<Q: AsRef<[f64]>>(path: &JointPath<Q>) -> Vec<Option<&'static str>> {
+    let posture = |q: &Q| {
+        let q = <[f64; 2]>::try_from(q.as_ref()).ok()?;
+        Posture::of(&Configuration(q)).map(Posture::name)
+    };
+    path.0.iter().map(posture).collect()
 }

@@ -1,5 +1,4 @@
-use elbowroom::planners::{self, Objective, Pace, PlanSettings, Planner};
-use elbowroom::swarm::GuidedSwarmSettings;
+use elbowroom::planners::{self, Objective, OptionValue, Pace, PlanSettings, Planner};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -50,13 +49,13 @@ impl Plan {
         tips(py, &self.plan.tip_path)
     }
 
-    /// Configurations from start to goal, shape ``(n, 2)`` (rad); the straight turns between them are certified free.
+    /// Configurations from start to goal, shape ``(n, joints)`` (rad); the straight turns between them are certified free.
     #[getter]
     fn configurations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         configurations(py, &self.plan.joint_path)
     }
 
-    /// The posture at each: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line.
+    /// The posture at each: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line or more links than two.
     #[getter]
     fn postures(&self) -> Vec<Option<&'static str>> {
         postures(&self.plan.joint_path)
@@ -86,6 +85,12 @@ impl Plan {
         self.plan.assumed_limits.iter().map(|limit| (limit.joint, limit.rate, limit.value)).collect()
     }
 
+    /// How many candidates were judged, and the best cost after how many each time it fell; ``None`` if not counted.
+    #[getter]
+    fn effort(&self) -> Option<(usize, Vec<(usize, f64)>)> {
+        self.plan.effort.as_ref().map(|effort| (effort.evaluations, effort.convergence.clone()))
+    }
+
     /// Seconds spent in each stage, in order.
     #[getter]
     fn timings(&self) -> Timings {
@@ -94,8 +99,42 @@ impl Plan {
 
     /// Return the verifier's verdict; ``scene`` names the obstacles.
     fn verdict<'py>(&self, py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyDict>> {
-        verdict::as_dict(py, &scene.0, self.plan.trajectory.verdict())
+        verdict::as_dict(py, &scene.scene, self.plan.trajectory.verdict())
     }
+}
+
+/// The value of a planner's option as Python has it.
+#[derive(FromPyObject)]
+pub(crate) enum OptionPart {
+    Count(usize),
+    Word(String),
+}
+
+impl From<OptionPart> for OptionValue {
+    fn from(part: OptionPart) -> Self {
+        match part {
+            OptionPart::Count(count) => Self::Count(count),
+            OptionPart::Word(word) => Self::Word(word),
+        }
+    }
+}
+
+/// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
+#[pyfunction]
+pub(crate) fn planners_known(
+    py: Python<'_>,
+) -> PyResult<Vec<(&'static str, Bound<'_, PyDict>, Option<&'static str>)>> {
+    let known = |planner: &Planner| {
+        let options = PyDict::new(py);
+        for (name, value) in planner.options() {
+            match value {
+                OptionValue::Count(count) => options.set_item(name, count)?,
+                OptionValue::Word(word) => options.set_item(name, word)?,
+            }
+        }
+        Ok((planner.name(), options, planner.budget()))
+    };
+    Planner::all().iter().map(known).collect()
 }
 
 /// Return a plan for the task called ``task``.
@@ -108,7 +147,7 @@ impl Plan {
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense, or the duration is too short.
 #[pyfunction]
-#[pyo3(signature = (scene, task, *, planner, objective, seed, candidates, duration=None, gap=None, timeout=None, on_stage=None))]
+#[pyo3(signature = (scene, task, *, planner, objective, seed, options, duration=None, gap=None, timeout=None, on_stage=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
@@ -117,7 +156,7 @@ pub(crate) fn plan(
     planner: &str,
     objective: &str,
     seed: u64,
-    candidates: usize,
+    options: Vec<(String, OptionPart)>,
     duration: Option<f64>,
     gap: Option<f64>,
     timeout: Option<f64>,
@@ -134,20 +173,13 @@ pub(crate) fn plan(
                 &format!("no objective is called '{objective}'; tip, joint or time"),
             )
         })?;
-    let planner = match planner {
-        "dstar" => Planner::Dstar,
-        "dstar-pso" => {
-            Planner::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
-        }
-        "optimal" => Planner::Optimal,
-        other => {
-            let message = format!("no planner is called '{other}'; dstar-pso, dstar or optimal");
-            return Err(errors::setting(py, "planner", &message));
-        }
-    };
+    let options: Vec<(String, OptionValue)> =
+        options.into_iter().map(|(name, value)| (name, value.into())).collect();
+    let planner = Planner::by_name(planner, &options)
+        .map_err(|error| errors::setting(py, "planner", &error.to_string()))?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
     let settings = PlanSettings { planner, objective, pace, seed, gap };
-    let work = |watch: &watch::Watch| planners::plan(&scene.0, asked, &settings, watch);
+    let work = |watch: &watch::Watch| planners::plan(&scene.scene, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
     Ok(Plan { plan, timings })

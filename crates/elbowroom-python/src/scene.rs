@@ -1,8 +1,9 @@
-use elbowroom::arm::{Configuration, JointLimits};
-use elbowroom::path::link_clearances;
+use elbowroom::arm::{Arm, JointLimits, PlanarArm};
+use elbowroom::geometry::Point;
+use elbowroom::path::{clearances, self_clearance};
 use elbowroom::scene::{self, Place, Shape, Task, TaskPosture};
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2};
+use numpy::ndarray::{Array2, Array3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
@@ -11,17 +12,29 @@ use crate::scene_parts::{ArmPart, GridPart, ObstaclePart, TaskPart};
 
 /// An arm among obstacles, checked, as the core holds it.
 #[pyclass(frozen, module = "elbowroom._core")]
-pub(crate) struct Scene(pub(crate) scene::Scene);
+pub(crate) struct Scene {
+    pub(crate) scene: scene::Scene<PlanarArm>,
+    /// The same for what needs an arm of two links, if it has one.
+    two_link: Option<scene::Scene>,
+}
 
 impl Scene {
     pub(crate) fn task(&self, py: Python<'_>, name: &str) -> PyResult<&Task> {
-        let known = || self.0.tasks.iter().map(|task| task.name.clone()).collect();
-        self.0.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
+        let known = || self.scene.tasks.iter().map(|task| task.name.clone()).collect();
+        self.scene.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
+    }
+
+    /// The scene with its arm of two links, for `what` cannot do with another.
+    pub(crate) fn two_link(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
+        self.two_link.as_ref().ok_or_else(|| {
+            let message = format!(
+                "{what} needs an arm of 2 links; the arm of this scene has {}",
+                self.scene.arm.lengths().len()
+            );
+            errors::setting(py, "arm", &message)
+        })
     }
 }
-
-/// Two arrays of shape (n, 2).
-type PointArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
 
 #[pymethods]
 impl Scene {
@@ -46,36 +59,64 @@ impl Scene {
         let tasks =
             tasks.into_iter().map(|(name, part)| part.build(py, name)).collect::<PyResult<Vec<_>>>()?;
         scene::Scene::new(arm.build(py)?, grid.build(py)?, obstacles, tasks)
-            .map(Self)
+            .map(|scene| Self { two_link: scene.two_link(), scene })
             .map_err(|problem| errors::part(py, "scene", &problem.to_string()))
     }
 
-    /// Return the clearance of each link at configurations ``q``, shape ``(n, 2)`` (m); 0 or less in contact, infinite
-    /// without obstacles. Joint limits are not looked at.
+    /// Return the clearance of each link from the obstacles at configurations ``q``, shape ``(n, joints)``, as an array
+    /// of that shape (m); 0 or less in contact, infinite without obstacles. Joint limits are not looked at.
     fn link_clearances<'py>(
         &self,
         py: Python<'py>,
         q: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let configurations = configurations(py, &q)?;
-        let found: Vec<[f64; 2]> =
-            py.detach(|| configurations.iter().map(|q| link_clearances(&self.0, q)).collect());
-        Ok(points(py, found.into_iter()))
+        let configurations = self.configurations(py, &q)?;
+        let found: Vec<f64> =
+            py.detach(|| configurations.iter().flat_map(|q| clearances(&self.scene, q)).collect());
+        let shape = (configurations.len(), self.scene.arm.lengths().len());
+        Ok(Array2::from_shape_fn(shape, |(i, j)| found[i * shape.1 + j]).into_pyarray(py))
     }
 
-    /// Return where elbow and tip are at configurations ``q``, shape ``(n, 2)`` each (m).
-    fn elbows_and_tips<'py>(
+    /// Return the least clearance between links that have to keep clear of each other at configurations ``q``, shape
+    /// ``(n, joints)``, one each (m); 0 or less in contact, infinite where there are no such links.
+    fn self_clearances<'py>(
         &self,
         py: Python<'py>,
         q: PyReadonlyArray2<'py, f64>,
-    ) -> PyResult<PointArrays<'py>> {
-        let configurations = configurations(py, &q)?;
-        let arm = &self.0.arm;
-        let at = |point: elbowroom::geometry::Point| [point.x, point.y];
-        Ok((
-            points(py, configurations.iter().map(|q| at(arm.elbow(q)))),
-            points(py, configurations.iter().map(|q| at(arm.tip(q)))),
-        ))
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let configurations = self.configurations(py, &q)?;
+        let found: Vec<f64> =
+            py.detach(|| configurations.iter().map(|q| self_clearance(&self.scene, q)).collect());
+        Ok(found.into_pyarray(py))
+    }
+
+    /// Return where the links end at configurations ``q``, shape ``(n, joints)``, as an array of shape ``(n, links, 2)``
+    /// (m): the last is the tip.
+    fn link_ends<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray2<'py, f64>,
+    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let configurations = self.configurations(py, &q)?;
+        let arm = &self.scene.arm;
+        let ends: Vec<Point> = configurations.iter().flat_map(|q| arm.link_ends(q)).collect();
+        let shape = (configurations.len(), arm.lengths().len(), 2);
+        let at = |(i, link, axis): (usize, usize, usize)| {
+            let end = ends[i * shape.1 + link];
+            if axis == 0 { end.x } else { end.y }
+        };
+        Ok(Array3::from_shape_fn(shape, at).into_pyarray(py))
+    }
+}
+
+impl Scene {
+    fn configurations(&self, py: Python<'_>, q: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec<f64>>> {
+        let joints = self.scene.arm.lengths().len();
+        if q.as_array().ncols() != joints {
+            let message = format!("configurations have {joints} columns, one per joint");
+            return Err(errors::setting(py, "q", &message));
+        }
+        Ok(q.as_array().rows().into_iter().map(|row| row.to_vec()).collect())
     }
 }
 
@@ -107,7 +148,7 @@ impl SceneFile {
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = &self.0.scene;
         let parts = PyDict::new(py);
-        parts.set_item("arm", arm_parts(py, scene)?)?;
+        parts.set_item("arm", arm_parts(py, &scene.arm)?)?;
         let grid = PyDict::new(py);
         let last = |first: f64, count: usize| first + (count - 1) as f64 * scene.grid.step();
         let origin = scene.grid.origin();
@@ -151,20 +192,14 @@ impl SceneFile {
     }
 }
 
-fn configurations(py: Python<'_>, q: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Configuration<2>>> {
-    if q.as_array().ncols() != 2 {
-        return Err(errors::setting(py, "q", "configurations have two columns, one per joint"));
-    }
-    Ok(q.as_array().rows().into_iter().map(|row| Configuration([row[0], row[1]])).collect())
-}
-
-fn arm_parts<'py>(py: Python<'py>, scene: &scene::Scene) -> PyResult<Bound<'py, PyDict>> {
-    let arm = PyDict::new(py);
-    arm.set_item("links", scene.arm.lengths())?;
-    arm.set_item("half_width", scene.arm.half_width())?;
-    arm.set_item("base", (scene.arm.base().x, scene.arm.base().y))?;
+fn arm_parts<'py>(py: Python<'py>, arm: &PlanarArm) -> PyResult<Bound<'py, PyDict>> {
+    let parts = PyDict::new(py);
+    parts.set_item("links", arm.lengths())?;
+    parts.set_item("half_width", arm.half_width())?;
+    parts.set_item("base", (arm.base().x, arm.base().y))?;
+    parts.set_item("self_collision", arm.self_collision())?;
     let joints = PyList::empty(py);
-    for joint in scene.arm.joints() {
+    for joint in arm.joints() {
         let part = PyDict::new(py);
         match joint.limits {
             JointLimits::Continuous => part.set_item("continuous", true)?,
@@ -178,15 +213,15 @@ fn arm_parts<'py>(py: Python<'py>, scene: &scene::Scene) -> PyResult<Bound<'py, 
         part.set_item("jerk", joint.motion.jerk)?;
         joints.append(part)?;
     }
-    arm.set_item("joints", joints)?;
-    Ok(arm)
+    parts.set_item("joints", joints)?;
+    Ok(parts)
 }
 
 /// A tip as a pair under `end`, a configuration as a pair under `end_q`.
 fn set_place(part: &Bound<'_, PyDict>, end: &str, place: &Place) -> PyResult<()> {
     match place {
         Place::Tip(tip) => part.set_item(end, (tip.x, tip.y)),
-        Place::Configuration(q) => part.set_item(format!("{end}_q"), q.0),
+        Place::Configuration(q) => part.set_item(format!("{end}_q"), q),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The parts of a scene as the dataclasses of `elbowroom.scene` hold them.
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+use elbowroom::arm::{Joint, JointLimits, MotionLimits, PlanarArm};
 use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Place, Shape, Task, TaskPosture};
@@ -24,6 +24,7 @@ pub(crate) struct ArmPart {
     joints: Vec<JointPart>,
     half_width: f64,
     base: [f64; 2],
+    self_collision: bool,
 }
 
 #[derive(FromPyObject)]
@@ -41,7 +42,7 @@ pub(crate) enum ObstaclePart {
 
 #[derive(FromPyObject)]
 pub(crate) enum PlacePart {
-    Configuration { q: [f64; 2] },
+    Configuration { q: Vec<f64> },
     Tip([f64; 2]),
 }
 
@@ -80,18 +81,10 @@ impl JointPart {
 }
 
 impl ArmPart {
-    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<TwoLinkArm> {
-        let (Ok(lengths), [first, second]) = (<[f64; 2]>::try_from(self.links.as_slice()), &self.joints[..])
-        else {
-            let message = format!(
-                "{} links and {} joints; this version plans arms of two links and two joints",
-                self.links.len(),
-                self.joints.len()
-            );
-            return Err(errors::part(py, "arm", &message));
-        };
-        let joints = [first.build(py, "arm.joints[0]")?, second.build(py, "arm.joints[1]")?];
-        TwoLinkArm::new(point(self.base), lengths, self.half_width, joints)
+    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<PlanarArm> {
+        let joint = |(j, part): (usize, &JointPart)| part.build(py, &format!("arm.joints[{j}]"));
+        let joints = self.joints.iter().enumerate().map(joint).collect::<PyResult<Vec<Joint>>>()?;
+        PlanarArm::new(point(self.base), self.links.clone(), self.half_width, joints, self.self_collision)
             .map_err(|error| errors::part(py, "arm", &error.to_string()))
     }
 }
@@ -122,9 +115,9 @@ impl ObstaclePart {
 
 impl PlacePart {
     fn build(&self) -> Place {
-        match *self {
-            Self::Configuration { q } => Place::Configuration(Configuration(q)),
-            Self::Tip(tip) => Place::Tip(point(tip)),
+        match self {
+            Self::Configuration { q } => Place::Configuration(q.clone()),
+            Self::Tip(tip) => Place::Tip(point(*tip)),
         }
     }
 }

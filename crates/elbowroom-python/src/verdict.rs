@@ -1,13 +1,14 @@
 //! A verdict as plain data.
 
+use elbowroom::arm::PlanarArm;
 use elbowroom::scene::Scene;
-use elbowroom::verify::{FLOOR, MotionMargin, Verdict, Violation};
+use elbowroom::verify::{Against, FLOOR, MotionMargin, Verdict, Violation};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 
 pub(crate) fn as_dict<'py>(
     py: Python<'py>,
-    scene: &Scene,
+    scene: &Scene<PlanarArm>,
     verdict: &Verdict,
 ) -> PyResult<Bound<'py, PyDict>> {
     let fields = PyDict::new(py);
@@ -24,13 +25,13 @@ pub(crate) fn as_dict<'py>(
         part.set_item("at_least", least.at_least)?;
         part.set_item("time", least.time)?;
         part.set_item("link", least.link)?;
-        part.set_item("obstacle", least.obstacle)?;
-        part.set_item("name", name(scene, least.obstacle))?;
+        set_against(&part, scene, least.against)?;
         Ok(part)
     });
     fields.set_item("least_clearance", clearance.transpose()?)?;
-    let stops = verdict.joint_margins.map(|margin| margin.map(|margin| (margin.distance, margin.time)));
-    fields.set_item("joint_margins", stops.to_vec())?;
+    let stops =
+        verdict.joint_margins.iter().map(|margin| margin.map(|margin| (margin.distance, margin.time)));
+    fields.set_item("joint_margins", stops.collect::<Vec<_>>())?;
     let motion = PyList::empty(py);
     for margins in &verdict.motion_margins {
         let part = PyDict::new(py);
@@ -54,25 +55,23 @@ fn margin_fields<'py>(py: Python<'py>, margin: &MotionMargin) -> PyResult<Bound<
 
 fn violation_fields<'py>(
     py: Python<'py>,
-    scene: &Scene,
+    scene: &Scene<PlanarArm>,
     violation: &Violation,
 ) -> PyResult<Bound<'py, PyDict>> {
     let part = PyDict::new(py);
     part.set_item("time", violation.time())?;
     part.set_item("message", violation.to_string())?;
     match *violation {
-        Violation::Contact { link, obstacle, depth, .. } => {
+        Violation::Contact { link, against, depth, .. } => {
             part.set_item("kind", "contact")?;
             part.set_item("link", link)?;
-            part.set_item("obstacle", obstacle)?;
-            part.set_item("name", name(scene, obstacle))?;
+            set_against(&part, scene, against)?;
             part.set_item("depth", depth)?;
         }
-        Violation::Undecided { link, obstacle, .. } => {
+        Violation::Undecided { link, against, .. } => {
             part.set_item("kind", "undecided")?;
             part.set_item("link", link)?;
-            part.set_item("obstacle", obstacle)?;
-            part.set_item("name", name(scene, obstacle))?;
+            set_against(&part, scene, against)?;
         }
         Violation::JointLimit { joint, angle, limit, .. } => {
             part.set_item("kind", "joint_limit")?;
@@ -91,6 +90,7 @@ fn violation_fields<'py>(
             part.set_item("joint", joint)?;
             part.set_item("value", jump)?;
         }
+        Violation::OtherArm { .. } => part.set_item("kind", "other_arm")?,
         Violation::TooLarge { joint, .. } => {
             part.set_item("kind", "too_large")?;
             part.set_item("joint", joint)?;
@@ -100,6 +100,13 @@ fn violation_fields<'py>(
     Ok(part)
 }
 
-fn name(scene: &Scene, obstacle: usize) -> Option<&str> {
-    scene.obstacles.get(obstacle)?.name.as_deref()
+/// The obstacle and its name, or the other link.
+fn set_against(part: &Bound<'_, PyDict>, scene: &Scene<PlanarArm>, against: Against) -> PyResult<()> {
+    match against {
+        Against::Obstacle(obstacle) => {
+            part.set_item("obstacle", obstacle)?;
+            part.set_item("name", scene.obstacles.get(obstacle).and_then(|o| o.name.as_deref()))
+        }
+        Against::Link(link) => part.set_item("other_link", link),
+    }
 }

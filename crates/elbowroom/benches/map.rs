@@ -39,7 +39,7 @@ fn circles(points: usize, count: usize) -> Scene {
 fn narrow(points: usize) -> Scene {
     let text = include_str!("../../../python/elbowroom/scenes/narrow.yaml");
     let file = elbowroom::scene::parse(text, "narrow.yaml").expect("the scene is sound");
-    Scene { grid: grid(points), ..file.scene }
+    Scene { grid: grid(points), ..file.scene.two_link().expect("two links") }
 }
 
 fn maps(c: &mut Criterion) {

@@ -15,6 +15,7 @@ const EMPTY: &str = include_str!("../../../python/elbowroom/scenes/paper-empty.y
 
 fn pipeline(c: &mut Criterion) {
     let scene = parse(SCENE, "paper-standin.yaml").expect("the scene is sound").scene;
+    let scene = scene.two_link().expect("two links");
     let swarm = Method::DstarPso(GuidedSwarmSettings::default());
     let mut group = c.benchmark_group("pipeline");
     group.sample_size(20);
@@ -43,6 +44,7 @@ fn pipeline(c: &mut Criterion) {
 
 fn without_obstacles(c: &mut Criterion) {
     let scene = parse(EMPTY, "paper-empty.yaml").expect("the scene is sound").scene;
+    let scene = scene.two_link().expect("two links");
     let mut group = c.benchmark_group("pipeline");
     group.sample_size(20);
     for (task, optimum) in scene.tasks.iter().zip([1.244_680, 0.861_838]) {

@@ -26,7 +26,7 @@ fn scene() -> Scene {
     Scene { arm, grid, obstacles, tasks: Vec::new() }
 }
 
-fn motion() -> Motion<2> {
+fn motion() -> Motion {
     let places: Vec<Configuration<2>> =
         (0..=6).map(|i| Configuration([0.3 + 0.4 * f64::from(i), 1.6 + 0.3 * f64::from(i % 3)])).collect();
     let vias = vias_at(&places);

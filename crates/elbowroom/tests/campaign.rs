@@ -109,7 +109,7 @@ fn judge_pieces(scene: &Scene, plan: &Plan, outcome: &mut Outcome) {
 }
 
 /// Whether the second joint gets from one side to the other without passing a multiple of half a turn.
-fn jumps_posture(piece: &Piece<2>) -> bool {
+fn jumps_posture(piece: &Piece) -> bool {
     let bend = |s: f64| judge::derivatives(piece, 1, s)[0].sin();
     (0..64).any(|i| {
         let (mut a, mut b) = (piece.duration * f64::from(i) / 64.0, piece.duration * f64::from(i + 1) / 64.0);

@@ -9,7 +9,7 @@ mod distance;
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+use elbowroom::arm::{Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
 use elbowroom::free_space::{CONTACT_FLOOR, CellState, FreeSpace, Reason, configurations, state_of};
 use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::grid::Grid;
@@ -426,9 +426,9 @@ fn a_place_that_is_not_free_says_why_and_where_the_arm_could_stand() {
 
     let far = configurations(&scene, &Place::Tip(Point::new(2.0, 0.0))).unwrap_err();
     assert!(matches!(far.reasons[0].1, Reason::OutOfReach { distance: 2.0, .. }));
-    let bent = configurations(&scene, &Place::Configuration(Configuration([0.0, -0.1]))).unwrap_err();
+    let bent = configurations(&scene, &Place::Configuration(vec![0.0, -0.1])).unwrap_err();
     assert!(matches!(bent.reasons[..], [(None, Reason::JointLimit { joint: 2, .. })]));
-    let not_a_number = configurations(&scene, &Place::Configuration(Configuration([f64::NAN, 0.1])));
+    let not_a_number = configurations(&scene, &Place::Configuration(vec![f64::NAN, 0.1]));
     assert!(matches!(not_a_number.unwrap_err().reasons[..], [(None, Reason::JointLimit { joint: 1, .. })]));
 }
 

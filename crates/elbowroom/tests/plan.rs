@@ -69,7 +69,7 @@ fn is_at(scene: &Scene, place: &Place, q: [f64; 2]) -> bool {
         }
         Place::Configuration(asked) => (0..2).all(|j| {
             // A continuous joint may have been counted on by whole turns.
-            let off = q[j] - asked.0[j];
+            let off = q[j] - asked[j];
             let off = match scene.arm.joints()[j].limits {
                 JointLimits::Continuous => (off / 2.0).sin() * 2.0,
                 JointLimits::Range { .. } => off,
@@ -79,23 +79,27 @@ fn is_at(scene: &Scene, place: &Place, q: [f64; 2]) -> bool {
     }
 }
 
+fn two(q: &[f64]) -> [f64; 2] {
+    [q[0], q[1]]
+}
+
 /// All that is promised of a plan, looked at from outside.
 fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
     let motion = plan.trajectory.motion();
     assert!(plan.trajectory.verdict().is_safe());
     assert_eq!(judge::fault(scene, motion, 200), None);
     let (first, last) = (motion.at(motion.start()), motion.at(motion.end()));
-    assert!(is_at(scene, &task.start, first.position), "{:?} is not {:?}", first.position, task.start);
-    assert!(is_at(scene, &task.goal, last.position), "{:?} is not {:?}", last.position, task.goal);
-    for end in [first, last] {
+    assert!(is_at(scene, &task.start, two(&first.position)), "{:?} is not {:?}", first.position, task.start);
+    assert!(is_at(scene, &task.goal, two(&last.position)), "{:?} is not {:?}", last.position, task.goal);
+    for end in [&first, &last] {
         assert!(end.velocity.iter().chain(&end.acceleration).all(|v| v.abs() < 1e-6));
     }
-    let goal = Posture::of(&Configuration(last.position));
+    let goal = Posture::of(&Configuration(two(&last.position)));
     match task.posture {
         TaskPosture::Up => assert_ne!(goal, Some(Posture::ElbowDown)),
         TaskPosture::Down => assert_ne!(goal, Some(Posture::ElbowUp)),
         TaskPosture::Keep => {
-            let bends: Vec<f64> = plan.joint_path.0.iter().map(|q| q.0[1].sin()).collect();
+            let bends: Vec<f64> = plan.joint_path.0.iter().map(|q| q[1].sin()).collect();
             assert!(bends.iter().all(|b| *b >= -1e-9) || bends.iter().all(|b| *b <= 1e-9), "{bends:?}");
         }
         TaskPosture::Any => {}
@@ -186,7 +190,7 @@ fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
     let known = [(standin, [[PI, 3.4454], [PI, 4.8746]]), (narrow, [[4.1906, 3.5240], [4.9238, 5.7470]])];
     for (text, known) in known {
         for (limits, known) in [JointLimits::Continuous, with_stops()].into_iter().zip(known) {
-            let mut scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene;
+            let mut scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene.two_link().unwrap();
             let mut joints = *scene.arm.joints();
             joints[0].limits = limits;
             scene.arm = TwoLinkArm::new(scene.arm.base(), scene.arm.lengths(), 0.0, joints).unwrap();
@@ -208,7 +212,7 @@ fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
 #[test]
 fn optimal_follows_the_hole_of_the_paper_s_ring_by_a_tangent_and_an_arc() {
     let text = include_str!("../../../python/elbowroom/scenes/paper-empty.yaml");
-    let scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene;
+    let scene = elbowroom::scene::parse(text, "scene.yaml").unwrap().scene.two_link().unwrap();
     for (index, length) in [1.16287, 0.80496].into_iter().enumerate() {
         let settings = PlanSettings { planner: Planner::Optimal, ..PlanSettings::default() };
         let plan = plan(&scene, &scene.tasks[index], &settings, &Unwatched).unwrap();
@@ -225,7 +229,7 @@ fn motion_limits_are_kept_and_missing_ones_are_named() {
     assert_true(&scene, &scene.tasks[0], &plan);
     let assumed: Vec<_> = plan.assumed_limits.iter().map(|a| (a.joint, a.rate, a.value)).collect();
     assert_eq!(assumed, [(1, "jerk", ASSUMED_LIMITS.jerk), (2, "jerk", ASSUMED_LIMITS.jerk)]);
-    let margins = plan.trajectory.verdict().motion_margins;
+    let margins = &plan.trajectory.verdict().motion_margins;
     let used = margins.iter().flat_map(|m| [m.velocity.largest / 2.0, m.acceleration.largest / 8.0]);
     let used = used.chain(margins.iter().map(|m| m.jerk.largest / ASSUMED_LIMITS.jerk)).fold(0.0, f64::max);
     assert!((0.9..=1.0).contains(&used), "the fastest motion uses {used} of a limit");
@@ -275,7 +279,7 @@ fn postures_asked_for_are_kept_to() {
 fn a_flip_passes_through_full_stretch() {
     let mut scene = standin(JointLimits::Continuous, MotionLimits::default());
     scene.obstacles.clear();
-    let (from, to) = (Configuration([0.3, 1.2]), Configuration([1.5, -1.2]));
+    let (from, to) = (vec![0.3, 1.2], vec![1.5, -1.2]);
     scene.tasks = vec![task(Place::Configuration(from), Place::Configuration(to), TaskPosture::Any)];
     let plan = run(&scene, &dstar()).unwrap();
     assert_true(&scene, &scene.tasks[0], &plan);
@@ -290,7 +294,7 @@ fn a_flip_passes_through_full_stretch() {
 #[test]
 fn an_arm_that_is_there_already_stands_still() {
     let mut scene = standin(JointLimits::Continuous, MotionLimits::default());
-    scene.tasks[0].goal = scene.tasks[0].start;
+    scene.tasks[0].goal = scene.tasks[0].start.clone();
     let plan = run(&scene, &PlanSettings::default()).unwrap();
     assert_eq!((plan.cost, plan.trajectory.motion().duration()), (0.0, 0.0));
     let pace = Pace::Duration(10.0);

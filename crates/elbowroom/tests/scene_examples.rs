@@ -29,7 +29,7 @@ fn all_scenes_of_the_repository_are_sound() {
 
 #[test]
 fn the_scenes_of_the_paper_are_read_as_they_are_written() {
-    let scene = |name: &str| parse(&example(name).unwrap(), name).unwrap().scene;
+    let scene = |name: &str| parse(&example(name).unwrap(), name).unwrap().scene.two_link().unwrap();
     let quarter = std::f64::consts::FRAC_PI_2;
     let tasks = [([0.4, 0.1], [-0.45, -0.15]), ([0.3, -0.3], [0.15, 0.45])]
         .map(|(start, goal)| [start, goal].map(|[x, y]: [f64; 2]| Place::Tip(Point::new(x, y))));
@@ -55,9 +55,9 @@ fn the_scenes_of_the_paper_are_read_as_they_are_written() {
         assert_eq!((scene.grid.columns(), scene.grid.rows(), scene.grid.step()), (101, 101, 0.01), "{name}");
         assert_eq!(scene.grid.origin(), Point::new(-0.5, -0.5), "{name}");
         assert_eq!(scene.obstacles.len(), obstacles, "{name}");
-        for (task, (name, [start, goal])) in scene.tasks.iter().zip(["first", "second"].iter().zip(tasks)) {
+        for (task, (name, [start, goal])) in scene.tasks.iter().zip(["first", "second"].iter().zip(&tasks)) {
             assert_eq!(
-                (task.name.as_str(), task.start, task.goal, task.posture),
+                (task.name.as_str(), &task.start, &task.goal, task.posture),
                 (*name, start, goal, TaskPosture::Any)
             );
         }

@@ -1,6 +1,6 @@
 //! Scene files: what they say, and what is said of those that are wrong.
 
-use elbowroom::arm::{Configuration, JointLimits, MotionLimits};
+use elbowroom::arm::{Arm, JointLimits, MotionLimits};
 use elbowroom::geometry::Point;
 use elbowroom::scene::{Location, Place, Shape, TaskPosture, parse};
 
@@ -46,7 +46,7 @@ fn every_part_is_read_in_metres_and_radians() {
     );
     let task = scene.task("first").unwrap();
     assert_eq!(task.start, Place::Tip(Point::new(0.4, 0.1)));
-    assert_eq!(task.goal, Place::Configuration(Configuration([90f64.to_radians(), -30f64.to_radians()])));
+    assert_eq!(task.goal, Place::Configuration(vec![90f64.to_radians(), -30f64.to_radians()]));
     assert_eq!(task.posture, TaskPosture::Keep);
     assert_eq!(file.locations.start("first"), Some(Location { line: 16, column: 18 }));
     assert_eq!(file.locations.goal("first"), Some(Location { line: 16, column: 34 }));
@@ -104,10 +104,10 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "links:",
             "lniks:",
-            "s.yaml:4:3: arm.lniks: no such key; known here: links, joints, half_width, base; did you mean links?",
+            "s.yaml:4:3: arm.lniks: no such key; known here: links, joints, half_width, base, self_collision; did you mean links?",
         ),
-        ("[25, 20]", "[25, 20, 15]", "s.yaml:4:10: arm.links: 3 given; this version plans arms of 2 links"),
-        ("[25, 20]", "[25]", "s.yaml:4:10: arm.links: 1 given; this version plans arms of 2 links"),
+        ("[25, 20]", "[25, 20, 15]", "s.yaml:6:5: arm.joints: 2 given for 3 links; every link has one joint"),
+        ("[25, 20]", "[25]", "s.yaml:4:10: arm.links: 1 given; an arm has 2 to 64 links"),
         ("[25, 20]", "[25, 0]", "s.yaml:4:15: arm.links[1]: found 0; allowed: greater than 0"),
         ("[25, 20]", "[25, -20]", "s.yaml:4:15: arm.links[1]: found -20; allowed: greater than 0"),
         ("[25, 20]", "[25, .nan]", "s.yaml:4:15: arm.links[1]: found .nan; numbers must be finite"),
@@ -118,7 +118,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ("[25, 20]", "[25, \"20\"]", "s.yaml:4:15: arm.links[1]: found the text \"20\"; allowed: a number"),
         ("[25, 20]", "[25, 0x14]", "s.yaml:4:15: arm.links[1]: found 0x14; allowed: a number"),
         ("[25, 20]", "[25, infinity]", "s.yaml:4:15: arm.links[1]: found infinity; allowed: a number"),
-        ("[25, 20]", "[25, ]", "s.yaml:4:10: arm.links: 1 given; this version plans arms of 2 links"),
+        ("[25, 20]", "[25, ]", "s.yaml:4:10: arm.links: 1 given; an arm has 2 to 64 links"),
         ("[25, 20]", "long", "s.yaml:4:10: arm.links: found long; allowed: a list of link lengths"),
         (
             "    - {min: -150, max: 150}\n",

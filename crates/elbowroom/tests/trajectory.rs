@@ -15,9 +15,9 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn state(&mut self) -> State<2> {
-        let mut pair = |scale: f64| [self.next() * scale, self.next() * scale];
-        State { position: pair(3.0), velocity: pair(2.0), acceleration: pair(5.0), jerk: [0.0; 2] }
+    fn state(&mut self) -> State {
+        let mut pair = |scale: f64| vec![self.next() * scale, self.next() * scale];
+        State { position: pair(3.0), velocity: pair(2.0), acceleration: pair(5.0), jerk: vec![0.0; 2] }
     }
 
     fn configurations(&mut self, count: usize) -> Vec<Configuration<2>> {
@@ -25,8 +25,9 @@ impl Numbers {
     }
 }
 
-fn near(a: [f64; 2], b: [f64; 2], tolerance: f64) -> bool {
-    a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
+fn near(a: impl AsRef<[f64]>, b: impl AsRef<[f64]>, tolerance: f64) -> bool {
+    let (a, b) = (a.as_ref(), b.as_ref());
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= tolerance)
 }
 
 #[test]
@@ -39,9 +40,9 @@ fn quintic_meets_its_six_end_conditions() {
         let (a, b) = (piece.at(0.0), piece.at(duration));
         let slack = 1e-9 * (1.0 + 1.0 / (duration * duration));
         for (got, want) in [(a, from), (b, to)] {
-            assert!(near(got.position, want.position, slack));
-            assert!(near(got.velocity, want.velocity, slack));
-            assert!(near(got.acceleration, want.acceleration, slack * 10.0));
+            assert!(near(&got.position, &want.position, slack));
+            assert!(near(&got.velocity, &want.velocity, slack));
+            assert!(near(&got.acceleration, &want.acceleration, slack * 10.0));
         }
     }
 }
@@ -50,7 +51,7 @@ fn quintic_meets_its_six_end_conditions() {
 fn rest_to_rest_is_the_smooth_step() {
     // 10 τ³ - 15 τ⁴ + 6 τ⁵ and its derivatives, whose peaks are known.
     let (h, t) = (1.7, 2.3);
-    let piece = Piece::quintic(0.0, t, &State::rest([0.2, 0.0]), &State::rest([0.2 + h, -h]));
+    let piece = Piece::quintic(0.0, t, &State::rest(&[0.2, 0.0]), &State::rest(&[0.2 + h, -h]));
     for i in 0..=100 {
         let tau = f64::from(i) / 100.0;
         let step = tau.powi(3) * (10.0 - 15.0 * tau + 6.0 * tau * tau);
@@ -79,11 +80,11 @@ fn derivatives_are_derivatives() {
         let s = 0.1 + 0.8 * numbers.next().abs();
         let (before, at, after) = (piece.at(s - step), piece.at(s), piece.at(s + step));
         for j in 0..2 {
-            let slope = |f: fn(&State<2>) -> [f64; 2]| (f(&after)[j] - f(&before)[j]) / (2.0 * step);
+            let slope = |f: fn(&State) -> &Vec<f64>| (f(&after)[j] - f(&before)[j]) / (2.0 * step);
             let scale = 1e-5 * (1.0 + at.jerk[j].abs() * 10.0 + 3000.0);
-            assert!((slope(|s| s.position) - at.velocity[j]).abs() < scale);
-            assert!((slope(|s| s.velocity) - at.acceleration[j]).abs() < scale);
-            assert!((slope(|s| s.acceleration) - at.jerk[j]).abs() < scale);
+            assert!((slope(|s| &s.position) - at.velocity[j]).abs() < scale);
+            assert!((slope(|s| &s.velocity) - at.acceleration[j]).abs() < scale);
+            assert!((slope(|s| &s.acceleration) - at.jerk[j]).abs() < scale);
         }
     }
 }
@@ -97,16 +98,16 @@ fn motion_through_vias_passes_them_and_is_smooth() {
         let durations = durations_by_length(&vias, 10.0);
         let motion = Motion::new(quintic_through(&vias, &durations)).unwrap();
         assert!((motion.duration() - 10.0).abs() < 1e-9);
-        assert!(near(motion.at(0.0).position, places[0].0, 0.0), "the start is exact");
-        assert!(near(motion.at(10.0).position, places[places.len() - 1].0, 1e-9));
+        assert!(near(motion.at(0.0).position, places[0], 0.0), "the start is exact");
+        assert!(near(motion.at(10.0).position, places[places.len() - 1], 1e-9));
         assert!(near(motion.at(0.0).velocity, [0.0; 2], 0.0));
         assert!(near(motion.at(10.0).velocity, [0.0; 2], 1e-9));
         for (i, pair) in motion.pieces().windows(2).enumerate() {
             let (end, begin) = (pair[0].at(pair[0].duration), pair[1].at(0.0));
-            assert!(near(end.position, places[i + 1].0, 1e-9));
-            assert!(near(end.position, begin.position, 1e-9));
-            assert!(near(end.velocity, begin.velocity, 1e-8));
-            assert!(near(end.acceleration, begin.acceleration, 1e-6));
+            assert!(near(&end.position, places[i + 1], 1e-9));
+            assert!(near(&end.position, &begin.position, 1e-9));
+            assert!(near(&end.velocity, &begin.velocity, 1e-8));
+            assert!(near(&end.acceleration, &begin.acceleration, 1e-6));
         }
     }
 }
@@ -117,7 +118,7 @@ fn between_stops_the_motion_is_straight() {
     for _ in 0..500 {
         let places = numbers.configurations(2);
         let vias = vias_at(&places);
-        let piece = quintic_through(&vias, &[1.5])[0];
+        let piece = &quintic_through(&vias, &[1.5])[0];
         for i in 0..=20 {
             let q = piece.at(1.5 * f64::from(i) / 20.0).position;
             let along: [f64; 2] = std::array::from_fn(|j| places[1].0[j] - places[0].0[j]);
@@ -132,17 +133,19 @@ fn repeated_vias_and_standing_still() {
     let a = Configuration([0.1, 0.2]);
     let b = Configuration([0.5, -0.2]);
     assert_eq!(vias_at(&[a, a, b, b, b]).len(), 2);
-    let vias = vias_at(&[a, a]);
+    let places = [a, a];
+    let vias = vias_at(&places);
     let durations = durations_by_length(&vias, 10.0);
     let motion = Motion::new(quintic_through(&vias, &durations)).unwrap();
-    assert_eq!((motion.duration(), motion.at(3.0)), (0.0, State::rest(a.0)));
+    assert_eq!((motion.duration(), motion.at(3.0)), (0.0, State::rest(&a.0)));
 }
 
 #[test]
 fn fastest_is_within_limits_and_close_to_them() {
     let mut numbers = Numbers(5);
     for case in 0..500 {
-        let vias = vias_at(&numbers.configurations(2 + case % 8));
+        let places = numbers.configurations(2 + case % 8);
+        let vias = vias_at(&places);
         let limit =
             |scale: f64| SpeedLimits { velocity: scale, acceleration: 3.0 * scale, jerk: 20.0 * scale };
         let limits = [limit(0.5 + numbers.next().abs()), limit(0.5 + numbers.next().abs())];
@@ -177,8 +180,8 @@ fn fastest_is_within_limits_and_close_to_them() {
 
 #[test]
 fn pieces_that_make_no_motion() {
-    let piece = |start: f64, duration: f64| Piece::<2> { start, duration, coefficients: [[0.0; 6]; 2] };
-    assert_eq!(Motion::<2>::new(vec![]), Err(MotionError::Empty));
+    let piece = |start: f64, duration: f64| Piece { start, duration, coefficients: vec![[0.0; 6]; 2] };
+    assert_eq!(Motion::new(vec![]), Err(MotionError::Empty));
     assert!(matches!(
         Motion::new(vec![piece(0.0, 1.0), piece(1.5, 1.0)]),
         Err(MotionError::Gap { piece: 1, .. })
@@ -189,6 +192,11 @@ fn pieces_that_make_no_motion() {
     ));
     assert!(matches!(Motion::new(vec![piece(0.0, -1.0)]), Err(MotionError::Duration { piece: 0, .. })));
     assert!(matches!(Motion::new(vec![piece(0.0, f64::NAN)]), Err(MotionError::NotFinite { piece: 0 })));
+    let narrower = Piece { coefficients: vec![[0.0; 6]], ..piece(1.0, 1.0) };
+    assert_eq!(
+        Motion::new(vec![piece(0.0, 1.0), narrower]),
+        Err(MotionError::Joints { piece: 1, found: 1, joints: 2 })
+    );
     let mut bad = piece(0.0, 1.0);
     bad.coefficients[1][5] = f64::INFINITY;
     assert_eq!(Motion::new(vec![bad]), Err(MotionError::NotFinite { piece: 0 }));
@@ -236,10 +244,11 @@ fn a_rescaled_motion_lasts_what_was_asked_and_meets_its_vias_on_ticks() {
 
 #[test]
 fn samples_become_the_curve_a_controller_would_run() {
+    let rows = |rows: [[f64; 2]; 3]| rows.map(|row| row.to_vec()).to_vec();
     let times = vec![0.0, 0.5, 2.0];
-    let positions = vec![[0.0, 1.0], [1.0, 0.0], [3.0, 0.5]];
-    let velocities = vec![[0.0, 0.0], [1.5, -1.0], [0.0, 2.0]];
-    let accelerations = vec![[0.5, 0.0], [-1.0, 1.0], [0.0, 3.0]];
+    let positions = rows([[0.0, 1.0], [1.0, 0.0], [3.0, 0.5]]);
+    let velocities = rows([[0.0, 0.0], [1.5, -1.0], [0.0, 2.0]]);
+    let accelerations = rows([[0.5, 0.0], [-1.0, 1.0], [0.0, 3.0]]);
     let samples = |v: bool, a: bool| Samples {
         times: times.clone(),
         positions: positions.clone(),
@@ -253,13 +262,13 @@ fn samples_become_the_curve_a_controller_would_run() {
         assert_eq!((found, motion.pieces().len()), (curve, 2));
         for (i, piece) in motion.pieces().iter().enumerate() {
             for (state, row) in [(piece.at(0.0), i), (piece.at(piece.duration), i + 1)] {
-                assert!(near(state.position, positions[row], 1e-12));
-                assert!(!v || near(state.velocity, velocities[row], 1e-12));
-                assert!(!a || near(state.acceleration, accelerations[row], 1e-11));
+                assert!(near(&state.position, &positions[row], 1e-12));
+                assert!(!v || near(&state.velocity, &velocities[row], 1e-12));
+                assert!(!a || near(&state.acceleration, &accelerations[row], 1e-11));
             }
         }
     }
-    let empty = Samples::<2> { times: vec![], positions: vec![], velocities: None, accelerations: None };
+    let empty = Samples { times: vec![], positions: vec![], velocities: None, accelerations: None };
     assert_eq!(interpolate(&empty), Err(SamplesError::Rows { found: 0 }));
     let mut turned = samples(false, false);
     turned.times[2] = 0.5;
@@ -268,20 +277,24 @@ fn samples_become_the_curve_a_controller_would_run() {
     lost.positions[1][0] = f64::NAN;
     assert_eq!(interpolate(&lost), Err(SamplesError::NotFinite { row: 2 }));
     let mut fewer = samples(true, true);
-    fewer.accelerations = Some(vec![[0.0; 2]]);
+    fewer.accelerations = Some(vec![vec![0.0; 2]]);
     assert!(matches!(
         interpolate(&fewer),
         Err(SamplesError::Counts { what: "accelerations", found: 1, rows: 3 })
     ));
+    let mut narrower = samples(true, false);
+    narrower.velocities.as_mut().unwrap()[1] = vec![0.0];
+    assert_eq!(interpolate(&narrower), Err(SamplesError::Joints { row: 2, found: 1, joints: 2 }));
 }
 
 #[test]
 fn lengths_of_a_motion_are_those_of_its_curve() {
-    use elbowroom::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
+    use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits, TwoLinkArm};
     use elbowroom::geometry::Point;
     let free = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
     let arm = TwoLinkArm::new(Point::new(0.3, -0.1), [0.4, 0.2], 0.0, [free; 2]).unwrap();
-    let vias = vias_at(&[Configuration([0.2, 0.5]), Configuration([1.7, 0.5])]);
+    let places = [Configuration([0.2, 0.5]), Configuration([1.7, 0.5])];
+    let vias = vias_at(&places);
     let motion = Motion::new(quintic_through(&vias, &[2.0])).unwrap();
     // Joint 1 alone: the tip goes round a circle about the base.
     let radius = arm.tip(&Configuration([0.2, 0.5])).distance(arm.base());
@@ -289,12 +302,13 @@ fn lengths_of_a_motion_are_those_of_its_curve() {
     assert!((motion.joint_length() - 1.5).abs() < 1e-9);
     let mut numbers = Numbers(9);
     for _ in 0..100 {
-        let vias = vias_at(&numbers.configurations(5));
+        let places = numbers.configurations(5);
+        let vias = vias_at(&places);
         let motion = Motion::new(quintic_through(&vias, &durations_by_length(&vias, 3.0))).unwrap();
         let samples: Vec<_> =
             (0..=40_000).map(|i| motion.at(3.0 * f64::from(i) / 40_000.0).position).collect();
         let joints: f64 = samples.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
-        let tips: Vec<_> = samples.iter().map(|q| arm.tip(&Configuration(*q))).collect();
+        let tips: Vec<_> = samples.iter().map(|q| arm.tip_at(q)).collect();
         let tip: f64 = tips.windows(2).map(|w| w[0].distance(w[1])).sum();
         assert!((motion.joint_length() - joints).abs() < 1e-5 * joints);
         assert!((motion.tip_length(&arm) - tip).abs() < 1e-5 * tip, "{} {tip}", motion.tip_length(&arm));

@@ -11,7 +11,7 @@ use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Scene, Shape};
 use elbowroom::trajectory::{Motion, Piece, State};
 use elbowroom::verify::{
-    FLOOR, Quantity, Rate, Trajectory, Verdict, VerifySettings, Violation, verify, verify_until,
+    Against, FLOOR, Quantity, Rate, Trajectory, Verdict, VerifySettings, Violation, verify, verify_until,
 };
 
 const FREE: Joint = Joint {
@@ -38,21 +38,22 @@ fn scene(half_width: f64, obstacles: Vec<Obstacle>) -> Scene {
     scene_with([1.0, 0.5], half_width, [FREE; 2], obstacles)
 }
 
-fn rest_to_rest(from: [f64; 2], to: [f64; 2], duration: f64) -> Motion<2> {
-    Motion::new(vec![Piece::quintic(0.0, duration, &State::rest(from), &State::rest(to))]).unwrap()
+fn rest_to_rest(from: [f64; 2], to: [f64; 2], duration: f64) -> Motion {
+    Motion::new(vec![Piece::quintic(0.0, duration, &State::rest(&from), &State::rest(&to))]).unwrap()
 }
 
-fn standing(at: [f64; 2]) -> Motion<2> {
-    let coefficients = at.map(|q| [q, 0.0, 0.0, 0.0, 0.0, 0.0]);
+fn standing(at: [f64; 2]) -> Motion {
+    let coefficients = at.map(|q| [q, 0.0, 0.0, 0.0, 0.0, 0.0]).to_vec();
     Motion::new(vec![Piece { start: 0.0, duration: 0.0, coefficients }]).unwrap()
 }
 
-fn straight(start: f64, duration: f64, from: [f64; 2], to: [f64; 2]) -> Piece<2> {
-    let coefficients = [0, 1].map(|j| [from[j], (to[j] - from[j]) / duration, 0.0, 0.0, 0.0, 0.0]);
+fn straight(start: f64, duration: f64, from: [f64; 2], to: [f64; 2]) -> Piece {
+    let line = |j: usize| [from[j], (to[j] - from[j]) / duration, 0.0, 0.0, 0.0, 0.0];
+    let coefficients = vec![line(0), line(1)];
     Piece { start, duration, coefficients }
 }
 
-fn judged(scene: &Scene, motion: &Motion<2>) -> Verdict {
+fn judged(scene: &Scene, motion: &Motion) -> Verdict {
     verify(scene, motion, &VerifySettings::default())
 }
 
@@ -70,7 +71,7 @@ fn a_sweep_past_a_circle_has_the_known_least_clearance() {
     let at_least = clearance.at_least.unwrap();
     assert!(at_least <= exact && at_least >= exact * 0.98, "{at_least}");
     assert!((clearance.time - 1.0).abs() < 0.02, "{}", clearance.time);
-    assert_eq!((clearance.link, clearance.obstacle), (2, 0));
+    assert_eq!((clearance.link, clearance.against), (2, Against::Obstacle(0)));
 }
 
 #[test]
@@ -82,7 +83,9 @@ fn the_time_of_first_contact_is_known() {
     let verdict = judged(&scene, &motion);
     let exact = FRAC_PI_2 - ((half_width + radius) / rho).asin();
     let first = verdict.violations[0];
-    let Violation::Contact { time, link: 1, obstacle: 0, depth } = first else { panic!("{verdict:?}") };
+    let Violation::Contact { time, link: 1, against: Against::Obstacle(0), depth } = first else {
+        panic!("{verdict:?}")
+    };
     assert!((time - exact).abs() < 1e-8, "{time} {exact}");
     assert!((depth - (half_width + radius)).abs() < 1e-3, "{depth}");
     assert!(verdict.least_clearance.unwrap().at_least.is_none());
@@ -215,7 +218,7 @@ fn stops_are_allowed_and_what_is_beyond_is_not() {
 fn overshoot_between_ends_within_the_stops_is_found() {
     // q1 = 4 s (1 - s): 1 at half time, where the ends and every derivative sampled at the ends look harmless.
     let piece =
-        Piece { start: 5.0, duration: 1.0, coefficients: [[0.0, 4.0, -4.0, 0.0, 0.0, 0.0], [0.0; 6]] };
+        Piece { start: 5.0, duration: 1.0, coefficients: vec![[0.0, 4.0, -4.0, 0.0, 0.0, 0.0], [0.0; 6]] };
     let joint = Joint { limits: JointLimits::range(-1.0, 1.0 - 1e-9).unwrap(), ..FREE };
     let verdict =
         judged(&scene_with([1.0, 0.5], 0.0, [joint, FREE], Vec::new()), &Motion::new(vec![piece]).unwrap());
@@ -227,10 +230,15 @@ fn overshoot_between_ends_within_the_stops_is_found() {
 
 #[test]
 fn pieces_that_do_not_join_are_found() {
-    let from = State::rest([0.0, 0.0]);
-    let via = State { position: [0.5, 0.1], velocity: [0.3, 0.2], acceleration: [0.1, -0.1], jerk: [0.0; 2] };
-    let to = State::rest([1.0, 0.0]);
-    let with = |second: &State<2>, from2: f64| {
+    let from = State::rest(&[0.0, 0.0]);
+    let via = State {
+        position: vec![0.5, 0.1],
+        velocity: vec![0.3, 0.2],
+        acceleration: vec![0.1, -0.1],
+        jerk: vec![0.0; 2],
+    };
+    let to = State::rest(&[1.0, 0.0]);
+    let with = |second: &State, from2: f64| {
         let pieces = vec![Piece::quintic(0.0, 1.0, &from, &via), Piece::quintic(from2, 1.0, second, &to)];
         judged(&scene(0.0, Vec::new()), &Motion::new(pieces).unwrap())
     };
@@ -239,7 +247,7 @@ fn pieces_that_do_not_join_are_found() {
         .into_iter()
         .flat_map(|what| [(what, 0), (what, 1)])
     {
-        let mut other = via;
+        let mut other = via.clone();
         match what {
             Quantity::Position => other.position[joint] += 1e-6,
             Quantity::Velocity => other.velocity[joint] += 1e-6,
@@ -272,10 +280,10 @@ fn posture_changes_are_where_the_elbow_passes_a_multiple_of_pi() {
     near(changes(vec![straight(0.0, 2.0, [0.0, 0.0], [0.0, 1.0])]), &[]);
     // Touches 0 at half time and goes back; the same and on to the other side.
     let touch =
-        Piece { start: 0.0, duration: 2.0, coefficients: [[0.0; 6], [1.0, -2.0, 1.0, 0.0, 0.0, 0.0]] };
+        Piece { start: 0.0, duration: 2.0, coefficients: vec![[0.0; 6], [1.0, -2.0, 1.0, 0.0, 0.0, 0.0]] };
     near(changes(vec![touch]), &[]);
     let cubic =
-        Piece { start: 0.0, duration: 2.0, coefficients: [[0.0; 6], [-1.0, 3.0, -3.0, 1.0, 0.0, 0.0]] };
+        Piece { start: 0.0, duration: 2.0, coefficients: vec![[0.0; 6], [-1.0, 3.0, -3.0, 1.0, 0.0, 0.0]] };
     let found = changes(vec![cubic]);
     assert!(found.len() == 1 && (found[0] - 1.0).abs() < 1e-3, "ill-conditioned, but one: {found:?}");
     // At 0 for a whole piece between two sides.
@@ -316,7 +324,7 @@ fn huge_numbers_are_refused_rather_than_passed() {
         [(1e308, 1.0), (1e300, 1e10), (1e20, 1.0), (1.0, 1e100), (5e-324, 1e-300), (1e308, 1e-308)]
     {
         for k in 0..6 {
-            let mut coefficients = [[0.0; 6]; 2];
+            let mut coefficients = vec![[0.0; 6]; 2];
             coefficients[1][k] = c;
             let motion = Motion::new(vec![Piece { start: 0.0, duration, coefficients }]).unwrap();
             let verdict = judged(&post(1e-3), &motion);
@@ -324,7 +332,7 @@ fn huge_numbers_are_refused_rather_than_passed() {
         }
     }
     let overflow =
-        Piece { start: 0.0, duration: 1e100, coefficients: [[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [0.0; 6]] };
+        Piece { start: 0.0, duration: 1e100, coefficients: vec![[0.0, 0.0, 0.0, 0.0, 0.0, 1.0], [0.0; 6]] };
     let verdict = judged(&scene(0.0, Vec::new()), &Motion::new(vec![overflow]).unwrap());
     assert!(matches!(verdict.violations[..], [Violation::TooLarge { joint: 1, .. }]), "{verdict:?}");
 }

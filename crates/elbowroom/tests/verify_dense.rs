@@ -9,7 +9,7 @@ use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Scene, Shape};
 use elbowroom::trajectory::{Motion, durations_by_length, quintic_through, vias_at};
-use elbowroom::verify::{FLOOR, Verdict, VerifySettings, Violation, verify};
+use elbowroom::verify::{Against, FLOOR, Verdict, VerifySettings, Violation, verify};
 
 const FREE: Joint = Joint {
     limits: JointLimits::Continuous,
@@ -43,7 +43,7 @@ fn polygon(vertices: &[[f64; 2]]) -> Obstacle {
     Obstacle { name: None, shape: Shape::Polygon(Polygon::new(vertices).unwrap()) }
 }
 
-fn judged(scene: &Scene, motion: &Motion<2>) -> Verdict {
+fn judged(scene: &Scene, motion: &Motion) -> Verdict {
     verify(scene, motion, &VerifySettings::default())
 }
 
@@ -98,7 +98,7 @@ struct DenseJudge {
 
 const SAMPLES: usize = 20_000;
 
-fn sample_time(motion: &Motion<2>, i: usize) -> f64 {
+fn sample_time(motion: &Motion, i: usize) -> f64 {
     motion.start() + motion.duration() * i as f64 / SAMPLES as f64
 }
 
@@ -116,19 +116,19 @@ impl DenseJudge {
         }
     }
 
-    fn axes(&self, motion: &Motion<2>, t: f64) -> [[P; 2]; 2] {
+    fn axes(&self, motion: &Motion, t: f64) -> [[P; 2]; 2] {
         let pieces = motion.pieces();
         let piece = pieces.iter().rfind(|piece| piece.start <= t).unwrap_or(&pieces[0]);
         let s = (t - piece.start).clamp(0.0, piece.duration);
-        let [q1, q2] =
-            piece.coefficients.map(|terms| terms.iter().rev().fold(0.0, |sum, term| sum * s + term));
+        let value = |j: usize| piece.coefficients[j].iter().rev().fold(0.0, |sum, term| sum * s + term);
+        let (q1, q2) = (value(0), value(1));
         let elbow = [self.base[0] + self.lengths[0] * q1.cos(), self.base[1] + self.lengths[0] * q1.sin()];
         let (sin, cos) = (q1 + q2).sin_cos();
         let tip = [elbow[0] + self.lengths[1] * cos, elbow[1] + self.lengths[1] * sin];
         [[self.base, elbow], [elbow, tip]]
     }
 
-    fn clearance(&self, motion: &Motion<2>, t: f64, link: usize, obstacle: usize) -> f64 {
+    fn clearance(&self, motion: &Motion, t: f64, link: usize, obstacle: usize) -> f64 {
         self.clearance_of(self.axes(motion, t)[link], obstacle)
     }
 
@@ -151,13 +151,7 @@ impl DenseJudge {
     }
 
     /// Clearance and time at the bottom of the dip between two times.
-    fn bottom(
-        &self,
-        motion: &Motion<2>,
-        [mut a, mut b]: [f64; 2],
-        link: usize,
-        obstacle: usize,
-    ) -> (f64, f64) {
+    fn bottom(&self, motion: &Motion, [mut a, mut b]: [f64; 2], link: usize, obstacle: usize) -> (f64, f64) {
         let at = |t: f64| self.clearance(motion, t, link, obstacle);
         for _ in 0..60 {
             let (c, d) = (a + (b - a) * 0.382, a + (b - a) * 0.618);
@@ -168,7 +162,7 @@ impl DenseJudge {
     }
 
     /// Least clearance of both links from an obstacle, however large: the bottoms of all dips that may be it.
-    fn least(&self, motion: &Motion<2>, axes: &[[[P; 2]; 2]], obstacle: usize) -> f64 {
+    fn least(&self, motion: &Motion, axes: &[[[P; 2]; 2]], obstacle: usize) -> f64 {
         let least_of = |link: usize| {
             let samples: Vec<f64> = axes.iter().map(|axes| self.clearance_of(axes[link], obstacle)).collect();
             let lowest = samples.iter().copied().fold(f64::INFINITY, f64::min);
@@ -185,7 +179,7 @@ impl DenseJudge {
     /// the times looked at with a clearance not above 0.
     fn sweep(
         &self,
-        motion: &Motion<2>,
+        motion: &Motion,
         axes: &[[[P; 2]; 2]],
         link: usize,
         obstacle: usize,
@@ -270,7 +264,7 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
     Scene { arm, grid, obstacles, tasks: Vec::new() }
 }
 
-fn random_motion(numbers: &mut Numbers) -> Motion<2> {
+fn random_motion(numbers: &mut Numbers) -> Motion {
     let spread = if numbers.below(3) == 0 { 0.4 } else { 2.5 };
     let places: Vec<Configuration<2>> = (0..2 + numbers.below(5))
         .map(|_| Configuration([numbers.between(-spread, spread), numbers.between(-spread, spread)]))
@@ -303,8 +297,10 @@ fn the_dense_judge_agrees(seed: u64, cases: usize) {
                 let (clearance, first) = judge.sweep(&motion, &axes, link, obstacle);
                 least = least.min(clearance);
                 let found = verdict.violations.iter().find(|violation| match violation {
-                    Violation::Contact { link: l, obstacle: o, .. }
-                    | Violation::Undecided { link: l, obstacle: o, .. } => (*l, *o) == (link + 1, obstacle),
+                    Violation::Contact { link: l, against: a, .. }
+                    | Violation::Undecided { link: l, against: a, .. } => {
+                        (*l, *a) == (link + 1, Against::Obstacle(obstacle))
+                    }
                     _ => false,
                 });
                 let context =
@@ -325,7 +321,8 @@ fn the_dense_judge_agrees(seed: u64, cases: usize) {
             }
         }
         let nearest = verdict.least_clearance.unwrap();
-        let again = judge.clearance(&motion, nearest.time, nearest.link - 1, nearest.obstacle);
+        let Against::Obstacle(obstacle) = nearest.against else { panic!("{nearest:?}") };
+        let again = judge.clearance(&motion, nearest.time, nearest.link - 1, obstacle);
         assert!((again - nearest.distance).abs() < 1e-9, "case {case}: {nearest:?} {again}");
         match nearest.at_least {
             Some(at_least) => {
@@ -382,7 +379,7 @@ fn a_micrometre_is_told_from_contact_on_random_motions() {
 }
 
 /// Sampled positions and rates lie within the verdict's extremes and come close to them.
-fn agree_on_joint(scene: &Scene, motion: &Motion<2>, verdict: &Verdict, joint: usize) {
+fn agree_on_joint(scene: &Scene, motion: &Motion, verdict: &Verdict, joint: usize) {
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
     let mut rates = [0.0f64; 3];
     for piece in motion.pieces() {

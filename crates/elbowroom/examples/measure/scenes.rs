@@ -5,7 +5,8 @@ use elbowroom::scene::{Scene, parse};
 
 /// The scene in a file, with `points` along each side of its grid.
 pub(crate) fn load(file: &str, points: usize) -> Result<Scene, Box<dyn Error>> {
-    let mut scene = parse(&std::fs::read_to_string(file)?, file)?.scene;
+    let scene = parse(&std::fs::read_to_string(file)?, file)?.scene;
+    let mut scene = scene.two_link().ok_or("the arm has more than two links")?;
     let (low, columns) = (scene.grid.origin(), scene.grid.columns());
     let side = scene.grid.step() * (columns - 1) as f64;
     let step = side / (points - 1) as f64;

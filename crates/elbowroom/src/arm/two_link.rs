@@ -1,6 +1,7 @@
 use thiserror::Error;
 
-use super::{Configuration, Joint};
+use super::planar::MOST_LINKS;
+use super::{Arm, Configuration, Joint, PlanarArm};
 use crate::geometry::{Point, Segment, Vector};
 
 /// Shortest and longest link (m) that arithmetic in f64 can serve with the digits promised.
@@ -18,6 +19,33 @@ pub struct TwoLinkArm {
 /// Why no arm has the asked measures.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ArmError {
+    /// Fewer links than two, or more than are served.
+    #[error("{found} links, 2 to {MOST_LINKS} are allowed")]
+    Links {
+        /// How many were asked for.
+        found: usize,
+    },
+    /// Another number of joints than of links.
+    #[error("{found} joints for {links} links, there must be one for each")]
+    Joints {
+        /// How many were given.
+        found: usize,
+        /// How many links there are.
+        links: usize,
+    },
+    /// The links before and after a link touch whatever the joints do.
+    #[error(
+        "link {link} is {length} m long and {half_width} m in half width: its neighbours, which have to keep clear of \
+         each other, always touch"
+    )]
+    AlwaysTouching {
+        /// 1 for the link at the base.
+        link: usize,
+        /// Its length (m).
+        length: f64,
+        /// Of all links (m).
+        half_width: f64,
+    },
     /// A link's length is outside what can be served.
     #[error("link {link} is {length} m long, {} m to {} m are allowed", LENGTHS.start(), LENGTHS.end())]
     Length {
@@ -53,15 +81,7 @@ impl TwoLinkArm {
         half_width: f64,
         joints: [Joint; 2],
     ) -> Result<Self, ArmError> {
-        if let Some(i) = lengths.iter().position(|l| !LENGTHS.contains(l)) {
-            return Err(ArmError::Length { link: i + 1, length: lengths[i] });
-        }
-        if !(0.0..=*LENGTHS.end()).contains(&half_width) {
-            return Err(ArmError::HalfWidth { half_width });
-        }
-        if !(base.x.abs() <= *LENGTHS.end() && base.y.abs() <= *LENGTHS.end()) {
-            return Err(ArmError::Base { x: base.x, y: base.y });
-        }
+        check_measures(base, &lengths, half_width)?;
         Ok(Self { base, lengths, half_width, joints })
     }
 
@@ -111,4 +131,49 @@ impl TwoLinkArm {
     pub fn within_limits(&self, q: &Configuration<2>) -> bool {
         self.joints.iter().zip(q.0).all(|(joint, angle)| joint.limits.contains(angle))
     }
+}
+
+impl Arm for TwoLinkArm {
+    fn base(&self) -> Point {
+        self.base
+    }
+
+    fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
+    fn half_width(&self) -> f64 {
+        self.half_width
+    }
+
+    fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Two links are neighbours.
+    fn self_collision(&self) -> bool {
+        false
+    }
+
+    fn two_link(&self) -> Option<TwoLinkArm> {
+        Some(*self)
+    }
+
+    fn planar(&self) -> PlanarArm {
+        PlanarArm::from(*self)
+    }
+}
+
+/// The first of the measures that cannot be served.
+pub(super) fn check_measures(base: Point, lengths: &[f64], half_width: f64) -> Result<(), ArmError> {
+    if let Some(i) = lengths.iter().position(|l| !LENGTHS.contains(l)) {
+        return Err(ArmError::Length { link: i + 1, length: lengths[i] });
+    }
+    if !(0.0..=*LENGTHS.end()).contains(&half_width) {
+        return Err(ArmError::HalfWidth { half_width });
+    }
+    if !(base.x.abs() <= *LENGTHS.end() && base.y.abs() <= *LENGTHS.end()) {
+        return Err(ArmError::Base { x: base.x, y: base.y });
+    }
+    Ok(())
 }

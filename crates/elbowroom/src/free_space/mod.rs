@@ -8,6 +8,7 @@ mod fill;
 mod map;
 mod mark;
 mod place;
+mod reason;
 mod rule;
 mod slices;
 mod space;
@@ -16,7 +17,8 @@ mod state;
 mod target;
 
 pub use map::{FreeSpaceMap, Reasons};
-pub use place::{NotFree, Reason, configurations};
+pub use place::{NotFree, configurations};
+pub use reason::{Reason, reason_against};
 pub use slices::Slices;
 pub(crate) use slices::merged;
 pub use space::{Cases, FreeSpace};

@@ -1,4 +1,4 @@
-use crate::arm::{InverseError, Posture, TwoLinkArm};
+use crate::arm::{Arm, InverseError, Posture};
 use crate::geometry::{Point, Segment};
 use crate::scene::{Obstacle, Scene};
 
@@ -63,6 +63,6 @@ fn first_contact(scene: &Scene, links: [Segment; 2]) -> Option<(usize, usize)> {
 }
 
 /// Whether a link with its centre line at `segment` touches `obstacle`.
-pub(super) fn touches(arm: &TwoLinkArm, obstacle: &Obstacle, segment: Segment) -> bool {
+pub(super) fn touches(arm: &impl Arm, obstacle: &Obstacle, segment: Segment) -> bool {
     obstacle.distance_to_segment(segment) <= arm.half_width() + CONTACT_FLOOR
 }

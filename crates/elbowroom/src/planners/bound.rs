@@ -33,7 +33,7 @@ pub(crate) fn prove(
     scene: &Scene,
     problem: &Problem,
     objective: Objective,
-    limits: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
     distance: f64,
     monitor: &impl Monitor,
 ) -> Result<Proved, PlanError> {
@@ -60,16 +60,16 @@ pub(crate) fn prove(
 }
 
 /// What a way over the joints costs: for time, that of joints at their greatest speeds all along.
-pub(crate) fn measure_of(objective: Objective, limits: &[SpeedLimits; 2]) -> Measure {
+pub(crate) fn measure_of(objective: Objective, limits: &[SpeedLimits]) -> Measure {
     match objective {
         Objective::Tip | Objective::Joint => Measure::Euclidean,
-        Objective::Time => Measure::Greatest(limits.map(|limit| 1.0 / limit.velocity)),
+        Objective::Time => Measure::Greatest([0, 1].map(|j| 1.0 / limits[j].velocity)),
     }
 }
 
 /// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
 /// again: one of them covers all of it, and has to speed up and slow down. A joint without a greatest speed takes no time.
-fn from_rest_to_rest(way: f64, limits: &[SpeedLimits; 2]) -> f64 {
+fn from_rest_to_rest(way: f64, limits: &[SpeedLimits]) -> f64 {
     let least = |limit: &SpeedLimits| {
         let speeding_up = limit.velocity / limit.acceleration;
         if way >= speeding_up { way + speeding_up } else { 2.0 * (way * speeding_up).sqrt() }

@@ -53,7 +53,7 @@ pub(crate) fn over_grid(
     scene: &Scene,
     problem: &Problem,
     settings: &PlanSettings,
-    limits: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
     let not_found = || PlanError::NotFound { step: scene.grid.step() };
@@ -133,7 +133,7 @@ pub(crate) fn off_grid(
     scene: &Scene,
     problem: &Problem,
     objective: Objective,
-    limits: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
     search: Search,
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {

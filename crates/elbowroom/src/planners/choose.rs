@@ -12,7 +12,7 @@ const SAME_PRICE: f64 = 1e-9;
 /// The `most` paths of least price, cheapest first; among equal ones those with more clearance, then earlier ones.
 pub(crate) fn shortlist(
     scene: &Scene,
-    limits: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
     objective: Objective,
     paths: Vec<(f64, JointPath)>,
     most: usize,
@@ -35,7 +35,7 @@ pub(crate) fn shortlist(
 
 /// The path without the grid's zigzag, which no motion through it keeps.
 fn corners(scene: &Scene, path: &JointPath) -> Vec<Configuration<2>> {
-    simplify(&scene.arm, path, scene.grid.step()).into_iter().map(|i| path.0[i]).collect()
+    simplify(&scene.arm, &path.0, scene.grid.step()).into_iter().map(|i| path.0[i]).collect()
 }
 
 /// Least clearance at the places of `path` (m).

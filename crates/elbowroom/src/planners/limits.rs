@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use crate::arm::TwoLinkArm;
+use crate::arm::{Arm, Joint};
 use crate::trajectory::SpeedLimits;
 
 /// What a joint is taken to be capable of where its scene does not say: a slow industrial arm.
@@ -18,10 +18,10 @@ pub struct AssumedLimit {
 }
 
 /// The motion limits of the joints, with [`ASSUMED_LIMITS`] where none is stated, and a list of those.
-pub(crate) fn motion_limits(arm: &TwoLinkArm) -> ([SpeedLimits; 2], Vec<AssumedLimit>) {
+pub(crate) fn motion_limits(arm: &impl Arm) -> (Vec<SpeedLimits>, Vec<AssumedLimit>) {
     let mut assumed = Vec::new();
-    let limits = [0, 1].map(|j| {
-        let stated = arm.joints()[j].motion;
+    let limit = |(j, joint): (usize, &Joint)| {
+        let stated = joint.motion;
         let mut take = |rate: &'static str, stated: Option<f64>, value: f64| {
             stated.unwrap_or_else(|| {
                 assumed.push(AssumedLimit { joint: j + 1, rate, value });
@@ -33,15 +33,17 @@ pub(crate) fn motion_limits(arm: &TwoLinkArm) -> ([SpeedLimits; 2], Vec<AssumedL
             acceleration: take("acceleration", stated.acceleration, ASSUMED_LIMITS.acceleration),
             jerk: take("jerk", stated.jerk, ASSUMED_LIMITS.jerk),
         }
-    });
+    };
+    let limits = arm.joints().iter().enumerate().map(limit).collect();
     (limits, assumed)
 }
 
 /// The limits that the scene states; a rate without one may be as great as it likes.
-pub(crate) fn stated_limits(arm: &TwoLinkArm) -> [SpeedLimits; 2] {
-    arm.joints().map(|joint| SpeedLimits {
+pub(crate) fn stated_limits(arm: &impl Arm) -> Vec<SpeedLimits> {
+    let limit = |joint: &Joint| SpeedLimits {
         velocity: joint.motion.velocity.unwrap_or(f64::INFINITY),
         acceleration: joint.motion.acceleration.unwrap_or(f64::INFINITY),
         jerk: joint.motion.jerk.unwrap_or(f64::INFINITY),
-    })
+    };
+    arm.joints().iter().map(limit).collect()
 }

@@ -1,9 +1,13 @@
 //! From a task to a plan.
 
 mod bound;
+mod by_name;
 mod candidates;
 mod chart;
 mod choose;
+mod ends;
+mod finish;
+mod interface;
 mod limits;
 mod monitor;
 mod optimal;
@@ -18,10 +22,11 @@ mod sheets;
 mod smooth;
 mod union_graph;
 
+pub use by_name::{NameError, OptionValue};
 pub use candidates::NEARLY_EQUAL;
+pub use interface::plan;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
-pub use plan::{NoPath, Plan, PlanError};
-pub use posture_true::plan;
+pub use plan::{Effort, NoPath, Plan, PlanError};
 pub use settings::{Objective, Pace, PlanSettings, Planner};

@@ -53,14 +53,14 @@ pub(crate) fn over_joints(
     scene: &Scene,
     problem: &Problem,
     objective: Objective,
-    limits: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
     search: Search,
     monitor: &impl Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
     let Search { distance, enough } = search;
     let weights = match objective {
         Objective::Tip | Objective::Joint => [1.0; 2],
-        Objective::Time => limits.map(|limit| 1.0 / limit.velocity),
+        Objective::Time => [0, 1].map(|j| 1.0 / limits[j].velocity),
     };
     let measure = measure_of(objective, limits);
     let mut found: Vec<JointPath> = Vec::new();

@@ -65,7 +65,7 @@ pub struct PaperPlan {
     /// Places of the path that the motion was led through, by their index.
     pub vias: Vec<usize>,
     /// Quintic pieces through the vias. Nothing has checked what lies between them.
-    pub motion: Motion<2>,
+    pub motion: Motion,
 }
 
 /// Why the paper's system has no plan.

@@ -3,6 +3,7 @@ use thiserror::Error;
 use super::limits::AssumedLimit;
 use crate::arm::Posture;
 use crate::free_space::NotFree;
+use crate::geometry::Point;
 use crate::path::{JointPath, TipPath};
 use crate::search::GoalError;
 use crate::swarm::GuidedSwarmError;
@@ -23,7 +24,7 @@ pub struct Plan {
     /// Where the tip is at each place of `joint_path`.
     pub tip_path: TipPath,
     /// Configurations from start to goal; the straight turns between them are certified free.
-    pub joint_path: JointPath,
+    pub joint_path: JointPath<Vec<f64>>,
     /// Places of the path that the motion is led through, by their index.
     pub vias: Vec<usize>,
     /// How many of them, ends left out, it stops at.
@@ -32,6 +33,17 @@ pub struct Plan {
     pub trajectory: Trajectory,
     /// Motion limits that the scene does not state, and what was taken in their place.
     pub assumed_limits: Vec<AssumedLimit>,
+    /// What the search took, for planners that count it.
+    pub effort: Option<Effort>,
+}
+
+/// What a search by evaluations took.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Effort {
+    /// How many candidates were judged.
+    pub evaluations: usize,
+    /// Evaluations made, and the cost of the best feasible candidate by then, each time that fell.
+    pub convergence: Vec<(usize, f64)>,
 }
 
 impl Plan {
@@ -104,6 +116,38 @@ pub enum PlanError {
     NotFoundOverJoints {
         /// Least distance kept from forbidden angles (rad).
         distance: f64,
+    },
+    /// The planner cannot serve an arm of so many links.
+    #[error("planner {planner} is for arms of 2 links; this one has {links}")]
+    OtherArm {
+        /// Its name.
+        planner: &'static str,
+        /// How many links the arm has.
+        links: usize,
+    },
+    /// A posture is asked for of an arm that has no two.
+    #[error("postures up, down and keep are for arms of 2 links; this one has {links}: any")]
+    PostureOfMany {
+        /// How many links the arm has.
+        links: usize,
+    },
+    /// No free configuration was found for an end of the task; there may be one.
+    #[error("{end}: no free configuration found that puts the tip at ({} m, {} m), in {tries} tries", tip.x, tip.y)]
+    EndNotFound {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// Where the tip shall be (m).
+        tip: Point,
+        /// From how many configurations it was led there.
+        tries: usize,
+    },
+    /// No candidate was free of contact; a greater budget may find one.
+    #[error(
+        "not found in {evaluations} evaluations: the best candidate still is in contact or beyond limits"
+    )]
+    NotFoundInBudget {
+        /// How many candidates were judged.
+        evaluations: usize,
     },
     /// No motion does it: proved.
     #[error("{0}")]

@@ -2,6 +2,7 @@
 
 use super::bound::{Proved, prove};
 use super::candidates::{Candidate, Found, GRID_TOLERANCE, SAME_COST, off_grid, over_grid};
+use super::finish::cost;
 use super::limits::{AssumedLimit, motion_limits, stated_limits};
 use super::optimal::{Search, over_joints};
 use super::problem::Problem;
@@ -37,13 +38,12 @@ const WALLS_DEEPER: f64 = 2.0;
 /// # Errors
 /// [`PlanError`]; a missing path is [`PlanError::NoPath`] where that is proved, else [`PlanError::NotFound`] or
 /// [`PlanError::NotFoundOverJoints`].
-pub fn plan(
+pub(crate) fn plan(
     scene: &Scene,
     task: &Task,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    check(settings)?;
     let problem = Problem::new(scene, task)?;
     let (limits, assumed_limits) = motion_limits(&scene.arm);
     let work = Work { scene, problem, settings, limits, assumed_limits, monitor };
@@ -63,7 +63,7 @@ struct Work<'a, M: Monitor> {
     scene: &'a Scene,
     problem: Problem,
     settings: &'a PlanSettings,
-    limits: [SpeedLimits; 2],
+    limits: Vec<SpeedLimits>,
     assumed_limits: Vec<AssumedLimit>,
     monitor: &'a M,
 }
@@ -78,7 +78,7 @@ impl<M: Monitor> Work<'_, M> {
         let objective = self.settings.objective;
         // A duration that was asked for heeds only the limits that the scene states.
         let limits = match self.settings.pace {
-            Pace::Fastest => self.limits,
+            Pace::Fastest => self.limits.clone(),
             Pace::Duration(_) => stated_limits(&self.scene.arm),
         };
         match prove(self.scene, &self.problem, objective, &limits, distance, self.monitor)? {
@@ -167,7 +167,7 @@ impl<M: Monitor> Work<'_, M> {
         for Candidate { path: joint_path, tip_travel, tolerance } in found.candidates {
             let flowing = Style::Flowing { tolerance };
             let smooth =
-                |style| smooth(scene, &joint_path, &self.limits, &stated, settings.pace, style, monitor);
+                |style| smooth(scene, &joint_path.0, &self.limits, &stated, settings.pace, style, monitor);
             let smoothed = match smooth(flowing) {
                 // Straight turns are refused only where the duration is too short for so many stops.
                 Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
@@ -180,11 +180,11 @@ impl<M: Monitor> Work<'_, M> {
                 Ok(smoothed) => smoothed,
                 Err(SmoothError::Stopped) => return Err(PlanError::Stopped),
                 Err(error) => {
-                    refused = in_terms_of(settings.pace, error);
+                    refused = error.in_terms_of(settings.pace);
                     continue;
                 }
             };
-            let cost = cost(scene, settings.objective, &smoothed.trajectory);
+            let cost = cost(&scene.arm, settings.objective, smoothed.trajectory.motion());
             let clearance = |trajectory: &Trajectory| {
                 trajectory.verdict().least_clearance.map_or(f64::INFINITY, |least| least.distance)
             };
@@ -201,11 +201,12 @@ impl<M: Monitor> Work<'_, M> {
                     path_cost: tip_travel,
                     paths_to_choose_from: found.paths,
                     tip_path: joint_path.tips(&scene.arm),
-                    joint_path,
+                    joint_path: joint_path.any(),
                     vias: smoothed.vias,
                     stops: smoothed.stops,
                     trajectory: smoothed.trajectory,
                     assumed_limits: self.assumed_limits.clone(),
+                    effort: None,
                 });
             }
         }
@@ -220,41 +221,5 @@ fn is_worth_stopping(scene: &Scene, settings: &PlanSettings, path: &JointPath, s
         (Planner::Optimal, Objective::Joint) => path.length(),
         _ => return false,
     };
-    own < (1.0 - WORTH_STOPPING) * cost(scene, settings.objective, &smoothed.trajectory)
-}
-
-/// What `trajectory` costs in terms of `objective`.
-fn cost(scene: &Scene, objective: Objective, trajectory: &Trajectory) -> f64 {
-    let motion = trajectory.motion();
-    match objective {
-        Objective::Tip => motion.tip_length(&scene.arm),
-        Objective::Joint => motion.joint_length(),
-        Objective::Time => motion.duration(),
-    }
-}
-
-fn in_terms_of(pace: Pace, error: SmoothError) -> PlanError {
-    match (error, pace) {
-        (SmoothError::TooFast { fastest }, Pace::Duration(duration)) => {
-            PlanError::TooFast { duration, fastest }
-        }
-        (SmoothError::Motion(error), _) => error.into(),
-        (SmoothError::Refused(verdict), _) => PlanError::Refused(verdict),
-        (SmoothError::Stopped | SmoothError::TooFast { .. }, _) => PlanError::Stopped,
-    }
-}
-
-fn check(settings: &PlanSettings) -> Result<(), PlanError> {
-    if let Planner::DstarPso(swarm) = &settings.planner {
-        swarm.check()?;
-    }
-    if let Some(gap) = settings.gap.filter(|gap| gap.is_nan() || *gap < 0.0) {
-        return Err(PlanError::Gap { gap });
-    }
-    match settings.pace {
-        Pace::Duration(duration) if !(duration.is_finite() && duration > 0.0) => {
-            Err(PlanError::Duration { duration })
-        }
-        _ => Ok(()),
-    }
+    own < (1.0 - WORTH_STOPPING) * cost(&scene.arm, settings.objective, smoothed.trajectory.motion())
 }

@@ -11,6 +11,17 @@ pub enum Planner {
     Optimal,
 }
 
+impl Planner {
+    /// The word for it in files and on the command line.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Dstar => "dstar",
+            Self::DstarPso(_) => "dstar-pso",
+            Self::Optimal => "optimal",
+        }
+    }
+}
+
 /// What a motion shall cost little of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Objective {

@@ -1,8 +1,9 @@
 //! From certified straight turns to a smooth motion that the verifier accepts.
 
-use super::Monitor;
 use super::settings::Pace;
-use crate::path::{JointPath, simplify};
+use super::{Monitor, PlanError};
+use crate::arm::Arm;
+use crate::path::simplify;
 use crate::scene::Scene;
 use crate::trajectory::{
     Motion, MotionError, SpeedLimits, Via, fastest_durations, quintic_through, rescaled, stretch,
@@ -47,23 +48,34 @@ pub(crate) enum SmoothError {
     Refused(Box<Verdict>),
 }
 
-/// A motion through places of `path`, whose straight turns from place to place are certified free.
+impl SmoothError {
+    /// What it means for a plan at `pace`.
+    pub(crate) fn in_terms_of(self, pace: Pace) -> PlanError {
+        match (self, pace) {
+            (Self::TooFast { fastest }, Pace::Duration(duration)) => PlanError::TooFast { duration, fastest },
+            (Self::Motion(error), _) => error.into(),
+            (Self::Refused(verdict), _) => PlanError::Refused(verdict),
+            (Self::Stopped | Self::TooFast { .. }, _) => PlanError::Stopped,
+        }
+    }
+}
+
+/// A motion through places of a path, whose straight turns from place to place are certified free.
 ///
 /// Quintic pieces through few vias at first; where the verifier refuses a piece, places between its ends become
 /// vias too, and where none is left the piece is turned straight, from stop to stop.
-pub(crate) fn smooth(
-    scene: &Scene,
-    path: &JointPath,
-    limits: &[SpeedLimits; 2],
-    stated: &[SpeedLimits; 2],
+pub(crate) fn smooth<A: Arm, Q: AsRef<[f64]>>(
+    scene: &Scene<A>,
+    places: &[Q],
+    limits: &[SpeedLimits],
+    stated: &[SpeedLimits],
     pace: Pace,
     style: Style,
     monitor: &impl Monitor,
 ) -> Result<Smoothed, SmoothError> {
-    let places = &path.0;
     let (mut chosen, mut stops) = match style {
         Style::Flowing { tolerance } => {
-            (simplify(&scene.arm, path, tolerance * scene.grid.step()), vec![false; places.len()])
+            (simplify(&scene.arm, places, tolerance * scene.grid.step()), vec![false; places.len()])
         }
         Style::StopToStop => ((0..places.len()).collect(), vec![true; places.len()]),
     };
@@ -74,7 +86,7 @@ pub(crate) fn smooth(
         if !monitor.keep_going() {
             return Err(SmoothError::Stopped);
         }
-        let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: places[i], stop: stops[i] }).collect();
+        let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: places[i].as_ref(), stop: stops[i] }).collect();
         let durations = durations_of(&vias, limits, stated, pace)?;
         let motion = Motion::new(quintic_through(&vias, &durations)).map_err(SmoothError::Motion)?;
         let keep_going = || monitor.keep_going();
@@ -108,8 +120,8 @@ pub(crate) fn smooth(
 /// Durations of the pieces between `vias`: the fastest found, or stretched evenly to what was asked.
 fn durations_of(
     vias: &[Via],
-    limits: &[SpeedLimits; 2],
-    stated: &[SpeedLimits; 2],
+    limits: &[SpeedLimits],
+    stated: &[SpeedLimits],
     pace: Pace,
 ) -> Result<Vec<f64>, SmoothError> {
     let durations = fastest_durations(vias, limits);

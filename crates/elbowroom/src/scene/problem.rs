@@ -3,6 +3,7 @@ use std::collections::HashSet;
 use thiserror::Error;
 
 use super::{Place, Scene};
+use crate::arm::Arm;
 
 /// Most obstacles of a scene: a map numbers them in 16 bits.
 pub(super) const MOST_OBSTACLES: usize = 1 << 16;
@@ -43,6 +44,16 @@ pub enum SceneProblem {
         /// The name.
         name: String,
     },
+    /// A start or goal with another number of angles than the arm has joints.
+    #[error("task '{}': {found} joint angles, the arm has {links} joints", task.escape_debug())]
+    Joints {
+        /// Whose.
+        task: String,
+        /// How many angles it has.
+        found: usize,
+        /// How many joints the arm has.
+        links: usize,
+    },
     /// A start or goal that is no place.
     #[error(
         "task '{}': start and goal must be finite, tips within {GREATEST_COORDINATE:e} m, angles within {GREATEST_ANGLE:e} rad",
@@ -54,7 +65,7 @@ pub enum SceneProblem {
     },
 }
 
-pub(super) fn first(scene: &Scene) -> Option<SceneProblem> {
+pub(super) fn first<A: Arm>(scene: &Scene<A>) -> Option<SceneProblem> {
     if scene.obstacles.len() > MOST_OBSTACLES {
         return Some(SceneProblem::Obstacles { found: scene.obstacles.len() });
     }
@@ -72,13 +83,24 @@ pub(super) fn first(scene: &Scene) -> Option<SceneProblem> {
     {
         return Some(SceneProblem::TaskName { name: task.name.clone() });
     }
-    let task = scene.tasks.iter().find(|task| !(is_place(&task.start) && is_place(&task.goal)))?;
-    Some(SceneProblem::Place { task: task.name.clone() })
+    let links = scene.arm.lengths().len();
+    scene.tasks.iter().find_map(|task| {
+        let [start, goal] = [&task.start, &task.goal];
+        for place in [start, goal] {
+            match place {
+                Place::Configuration(q) if q.len() != links => {
+                    return Some(SceneProblem::Joints { task: task.name.clone(), found: q.len(), links });
+                }
+                _ => {}
+            }
+        }
+        (!(is_place(start) && is_place(goal))).then(|| SceneProblem::Place { task: task.name.clone() })
+    })
 }
 
 fn is_place(place: &Place) -> bool {
     match place {
         Place::Tip(tip) => tip.x.abs() <= GREATEST_COORDINATE && tip.y.abs() <= GREATEST_COORDINATE,
-        Place::Configuration(q) => q.0.iter().all(|angle| angle.abs() <= GREATEST_ANGLE),
+        Place::Configuration(q) => q.iter().all(|angle| angle.abs() <= GREATEST_ANGLE),
     }
 }

@@ -1,13 +1,12 @@
-use crate::arm::Configuration;
 use crate::geometry::Point;
 
 /// Where a task begins or ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Place {
     /// The tip stands here (m); which configuration does not matter.
     Tip(Point),
-    /// The joints stand here (rad).
-    Configuration(Configuration<2>),
+    /// The joints stand here, one position each, base first (rad).
+    Configuration(Vec<f64>),
 }
 
 /// In which posture a task may be carried out.

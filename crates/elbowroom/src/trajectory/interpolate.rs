@@ -1,21 +1,22 @@
 use thiserror::Error;
 
-use super::{Motion, MotionError, Piece, State};
+use super::piece::quintic;
+use super::{Motion, MotionError, Piece};
 
 /// The most rows that are read.
 pub const MAX_ROWS: usize = 1_000_000;
 
 /// Joint positions at instants, with velocities and accelerations where they are known.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Samples<const DOF: usize> {
+pub struct Samples {
     /// Since the start (s), ascending.
     pub times: Vec<f64>,
-    /// One per time (rad).
-    pub positions: Vec<[f64; DOF]>,
+    /// One per time, a number per joint (rad).
+    pub positions: Vec<Vec<f64>>,
     /// One per time (rad/s), or unknown.
-    pub velocities: Option<Vec<[f64; DOF]>>,
+    pub velocities: Option<Vec<Vec<f64>>>,
     /// One per time (rad/s²), or unknown; of use only beside velocities.
-    pub accelerations: Option<Vec<[f64; DOF]>>,
+    pub accelerations: Option<Vec<Vec<f64>>>,
 }
 
 /// The curve taken between two samples.
@@ -59,6 +60,16 @@ pub enum SamplesError {
         /// How many times.
         rows: usize,
     },
+    /// A row has another number of joints than the first.
+    #[error("row {row} has numbers for {found} joints, the first row for {joints}")]
+    Joints {
+        /// Which.
+        row: usize,
+        /// How many it has.
+        found: usize,
+        /// How many the first row has.
+        joints: usize,
+    },
     /// A number is infinite or not a number.
     #[error("row {row} has a number that is not finite")]
     NotFinite {
@@ -85,7 +96,7 @@ pub enum SamplesError {
 ///
 /// # Errors
 /// [`SamplesError`] names the first row at fault.
-pub fn interpolate<const DOF: usize>(samples: &Samples<DOF>) -> Result<(Motion<DOF>, Curve), SamplesError> {
+pub fn interpolate(samples: &Samples) -> Result<(Motion, Curve), SamplesError> {
     check(samples)?;
     let curve = match (&samples.velocities, &samples.accelerations) {
         (Some(_), Some(_)) => Curve::Quintic,
@@ -93,30 +104,33 @@ pub fn interpolate<const DOF: usize>(samples: &Samples<DOF>) -> Result<(Motion<D
         (None, _) => Curve::Linear,
     };
     if let [start] = samples.times[..] {
-        let coefficients = samples.positions[0].map(|position| [position, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        let standing = |&position: &f64| [position, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let coefficients = samples.positions[0].iter().map(standing).collect();
         return Ok((Motion::new(vec![Piece { start, duration: 0.0, coefficients }])?, curve));
     }
-    let state = |i: usize| State {
-        position: samples.positions[i],
-        velocity: samples.velocities.as_ref().map_or([0.0; DOF], |velocities| velocities[i]),
-        acceleration: samples.accelerations.as_ref().map_or([0.0; DOF], |accelerations| accelerations[i]),
-        jerk: [0.0; DOF],
+    let of = |values: &Option<Vec<Vec<f64>>>, i: usize, j: usize| {
+        values.as_ref().map_or(0.0, |values| values[i][j])
     };
+    let state = |i: usize, j: usize| {
+        [samples.positions[i][j], of(&samples.velocities, i, j), of(&samples.accelerations, i, j)]
+    };
+    let between = match curve {
+        Curve::Quintic => quintic,
+        Curve::Cubic => cubic,
+        Curve::Linear => linear,
+    };
+    let joints = samples.positions[0].len();
     let pieces = (1..samples.times.len())
         .map(|i| {
             let (start, duration) = (samples.times[i - 1], samples.times[i] - samples.times[i - 1]);
-            let (from, to) = (state(i - 1), state(i));
-            match curve {
-                Curve::Quintic => Piece::quintic(start, duration, &from, &to),
-                Curve::Cubic => cubic(start, duration, &from, &to),
-                Curve::Linear => linear(start, duration, &from, &to),
-            }
+            let coefficients = (0..joints).map(|j| between(state(i - 1, j), state(i, j), duration)).collect();
+            Piece { start, duration, coefficients }
         })
         .collect();
     Ok((Motion::new(pieces)?, curve))
 }
 
-fn check<const DOF: usize>(samples: &Samples<DOF>) -> Result<(), SamplesError> {
+fn check(samples: &Samples) -> Result<(), SamplesError> {
     let rows = samples.times.len();
     if !(1..=MAX_ROWS).contains(&rows) {
         return Err(SamplesError::Rows { found: rows });
@@ -133,7 +147,15 @@ fn check<const DOF: usize>(samples: &Samples<DOF>) -> Result<(), SamplesError> {
             return Err(SamplesError::Counts { what, found: values.len(), rows });
         }
     }
+    let joints = samples.positions[0].len();
     for row in 0..rows {
+        for (_, values) in known {
+            if let Some(values) = values
+                && values[row].len() != joints
+            {
+                return Err(SamplesError::Joints { row: row + 1, found: values[row].len(), joints });
+            }
+        }
         let finite =
             known.iter().filter_map(|(_, values)| *values).all(|v| v[row].iter().all(|x| x.is_finite()));
         if !(finite && samples.times[row].is_finite()) {
@@ -147,21 +169,13 @@ fn check<const DOF: usize>(samples: &Samples<DOF>) -> Result<(), SamplesError> {
     Ok(())
 }
 
-fn linear<const DOF: usize>(start: f64, duration: f64, from: &State<DOF>, to: &State<DOF>) -> Piece<DOF> {
-    let coefficients = std::array::from_fn(|j| {
-        let slope = (to.position[j] - from.position[j]) / duration;
-        [from.position[j], slope, 0.0, 0.0, 0.0, 0.0]
-    });
-    Piece { start, duration, coefficients }
+fn linear([q0, ..]: [f64; 3], [q1, ..]: [f64; 3], duration: f64) -> [f64; 6] {
+    [q0, (q1 - q0) / duration, 0.0, 0.0, 0.0, 0.0]
 }
 
-fn cubic<const DOF: usize>(start: f64, duration: f64, from: &State<DOF>, to: &State<DOF>) -> Piece<DOF> {
-    let coefficients = std::array::from_fn(|j| {
-        let slope = (to.position[j] - from.position[j]) / duration;
-        let (v0, v1) = (from.velocity[j], to.velocity[j]);
-        let c2 = (3.0 * slope - 2.0 * v0 - v1) / duration;
-        let c3 = (v0 + v1 - 2.0 * slope) / duration / duration;
-        [from.position[j], v0, c2, c3, 0.0, 0.0]
-    });
-    Piece { start, duration, coefficients }
+fn cubic([q0, v0, _]: [f64; 3], [q1, v1, _]: [f64; 3], duration: f64) -> [f64; 6] {
+    let slope = (q1 - q0) / duration;
+    let c2 = (3.0 * slope - 2.0 * v0 - v1) / duration;
+    let c3 = (v0 + v1 - 2.0 * slope) / duration / duration;
+    [q0, v0, c2, c3, 0.0, 0.0]
 }

@@ -1,5 +1,6 @@
+use super::piece::derivative_at;
 use super::{Motion, Piece};
-use crate::arm::TwoLinkArm;
+use crate::arm::Arm;
 use crate::geometry::Vector;
 
 /// Stretches that each piece is cut into for its integral; with five nodes each, lengths are right to a share of 1e-5,
@@ -15,27 +16,30 @@ const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-impl Motion<2> {
+impl Motion {
     /// Length of the tip's way with `arm` (m).
-    pub fn tip_length(&self, arm: &TwoLinkArm) -> f64 {
-        let [l1, l2] = arm.lengths();
+    pub fn tip_length(&self, arm: &impl Arm) -> f64 {
         self.integral(|piece, s| {
-            let state = piece.at(s);
-            let ([q1, q2], [v1, v2]) = (state.position, state.velocity);
-            // Turned by a right angle, which changes no length.
-            (Vector::polar(l1 * v1, q1) + Vector::polar(l2 * (v1 + v2), q1 + q2)).length()
+            let (mut direction, mut turn, mut velocity) = (0.0, 0.0, Vector::new(0.0, 0.0));
+            for (length, terms) in arm.lengths().iter().zip(&piece.coefficients) {
+                direction += derivative_at(terms, 0, s);
+                turn += derivative_at(terms, 1, s);
+                // Turned by a right angle, which changes no length.
+                velocity = velocity + Vector::polar(length * turn, direction);
+            }
+            velocity.length()
         })
     }
 
     /// Length of the way in configuration space (rad).
     pub fn joint_length(&self) -> f64 {
         self.integral(|piece, s| {
-            let [v1, v2] = piece.at(s).velocity;
-            libm::hypot(v1, v2)
+            let squares = piece.coefficients.iter().map(|terms| derivative_at(terms, 1, s).powi(2));
+            squares.sum::<f64>().sqrt()
         })
     }
 
-    fn integral(&self, speed: impl Fn(&Piece<2>, f64) -> f64) -> f64 {
+    fn integral(&self, speed: impl Fn(&Piece, f64) -> f64) -> f64 {
         let mut sum = 0.0;
         for piece in self.pieces() {
             let half = piece.duration / STRETCHES as f64 / 2.0;

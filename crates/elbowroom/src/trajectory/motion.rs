@@ -4,8 +4,8 @@ use super::{Piece, State};
 
 /// Polynomial pieces one after the other. Nobody has judged yet whether an arm may run it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Motion<const DOF: usize> {
-    pieces: Vec<Piece<DOF>>,
+pub struct Motion {
+    pieces: Vec<Piece>,
 }
 
 /// Why pieces make no motion.
@@ -14,6 +14,16 @@ pub enum MotionError {
     /// There is none.
     #[error("a motion needs at least one piece")]
     Empty,
+    /// A piece moves another number of joints than the first.
+    #[error("piece {piece} moves {found} joints, the first one {joints}")]
+    Joints {
+        /// Its place, from 0.
+        piece: usize,
+        /// How many joints it moves.
+        found: usize,
+        /// How many the first one moves.
+        joints: usize,
+    },
     /// A coefficient or a time is infinite or not a number.
     #[error("piece {piece} has a number that is not finite")]
     NotFinite {
@@ -40,17 +50,21 @@ pub enum MotionError {
     },
 }
 
-impl<const DOF: usize> Motion<DOF> {
+impl Motion {
     /// The motion through `pieces`, each beginning when the one before it ends. A single piece may last
     /// 0 s: an arm that is already there.
     ///
     /// # Errors
-    /// [`MotionError`] for no piece, numbers that are not finite, or times that do not join.
-    pub fn new(pieces: Vec<Piece<DOF>>) -> Result<Self, MotionError> {
+    /// [`MotionError`] for no piece, pieces of different joints, numbers that are not finite, or times that do not join.
+    pub fn new(pieces: Vec<Piece>) -> Result<Self, MotionError> {
         if pieces.is_empty() {
             return Err(MotionError::Empty);
         }
+        let joints = pieces[0].coefficients.len();
         for (i, piece) in pieces.iter().enumerate() {
+            if piece.coefficients.len() != joints {
+                return Err(MotionError::Joints { piece: i, found: piece.coefficients.len(), joints });
+            }
             let finite = piece.start.is_finite()
                 && piece.duration.is_finite()
                 && piece.coefficients.iter().flatten().all(|c| c.is_finite());
@@ -72,8 +86,13 @@ impl<const DOF: usize> Motion<DOF> {
     }
 
     /// The pieces in order of time.
-    pub fn pieces(&self) -> &[Piece<DOF>] {
+    pub fn pieces(&self) -> &[Piece] {
         &self.pieces
+    }
+
+    /// How many joints it moves.
+    pub fn joints(&self) -> usize {
+        self.pieces[0].coefficients.len()
     }
 
     /// When it begins (s).
@@ -93,7 +112,7 @@ impl<const DOF: usize> Motion<DOF> {
     }
 
     /// The joints at time `t` (s); before the start and after the end, those of the nearer end.
-    pub fn at(&self, t: f64) -> State<DOF> {
+    pub fn at(&self, t: f64) -> State {
         let index = self.pieces.partition_point(|piece| piece.start <= t).saturating_sub(1);
         let piece = &self.pieces[index];
         piece.at((t - piece.start).clamp(0.0, piece.duration))

@@ -2,64 +2,75 @@
 ///
 /// Joint `j` stands at the sum of `coefficients[j][k] * s^k` with `s` the time since `start`, from 0 to
 /// `duration`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Piece<const DOF: usize> {
+#[derive(Debug, Clone, PartialEq)]
+pub struct Piece {
     /// When it begins (s).
     pub start: f64,
     /// How long it lasts (s).
     pub duration: f64,
     /// Per joint, the constant first (rad, rad/s, rad/s², ...).
-    pub coefficients: [[f64; 6]; DOF],
+    pub coefficients: Vec<[f64; 6]>,
 }
 
-/// Where the joints are and how they move at one instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<const DOF: usize> {
+/// Where the joints are and how they move at one instant; one number per joint each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
     /// Positions (rad).
-    pub position: [f64; DOF],
+    pub position: Vec<f64>,
     /// Velocities (rad/s).
-    pub velocity: [f64; DOF],
+    pub velocity: Vec<f64>,
     /// Accelerations (rad/s²).
-    pub acceleration: [f64; DOF],
+    pub acceleration: Vec<f64>,
     /// Jerks (rad/s³).
-    pub jerk: [f64; DOF],
+    pub jerk: Vec<f64>,
 }
 
-impl<const DOF: usize> State<DOF> {
+/// The quintic, the constant first, from position, velocity and acceleration to position, velocity and acceleration over
+/// a duration (s): the solution of eqs (12) to (21) of the paper, with time counted from the start.
+pub(super) fn quintic([q0, v0, a0]: [f64; 3], [q1, v1, a1]: [f64; 3], duration: f64) -> [f64; 6] {
+    let t = duration;
+    let h = q1 - q0;
+    // Divided by t step by step: t⁵ would underflow long before t does.
+    let c3 = ((20.0 * h / t - 8.0 * v1 - 12.0 * v0) / t - (3.0 * a0 - a1)) / (2.0 * t);
+    let c4 = ((-30.0 * h / t + 14.0 * v1 + 16.0 * v0) / t + (3.0 * a0 - 2.0 * a1)) / (2.0 * t * t);
+    let c5 = ((12.0 * h / t - 6.0 * (v1 + v0)) / t + (a1 - a0)) / (2.0 * t * t * t);
+    [q0, v0, a0 / 2.0, c3, c4, c5]
+}
+
+/// The derivative of this order of the polynomial with these coefficients, the constant first, at `s`.
+pub(super) fn derivative_at(coefficients: &[f64; 6], order: usize, s: f64) -> f64 {
+    coefficients.iter().enumerate().skip(order).rev().fold(0.0, |sum, (k, c)| {
+        let factor: usize = (k + 1 - order..=k).product();
+        sum * s + c * factor as f64
+    })
+}
+
+impl State {
     /// Standing still at `position` (rad).
-    pub const fn rest(position: [f64; DOF]) -> Self {
-        Self { position, velocity: [0.0; DOF], acceleration: [0.0; DOF], jerk: [0.0; DOF] }
+    pub fn rest(position: &[f64]) -> Self {
+        let zeros = vec![0.0; position.len()];
+        let (velocity, acceleration, jerk) = (zeros.clone(), zeros.clone(), zeros);
+        Self { position: position.to_vec(), velocity, acceleration, jerk }
+    }
+
+    fn of_joint(&self, j: usize) -> [f64; 3] {
+        [self.position[j], self.velocity[j], self.acceleration[j]]
     }
 }
 
-impl<const DOF: usize> Piece<DOF> {
+impl Piece {
     /// The piece from `from` to `to` that meets position, velocity and acceleration at both ends: the
     /// solution of eqs (12) to (21) of the paper, with time counted from the piece's start.
-    pub fn quintic(start: f64, duration: f64, from: &State<DOF>, to: &State<DOF>) -> Self {
-        let t = duration;
-        let coefficients = std::array::from_fn(|j| {
-            let (q0, v0, a0) = (from.position[j], from.velocity[j], from.acceleration[j]);
-            let h = to.position[j] - q0;
-            let (v1, a1) = (to.velocity[j], to.acceleration[j]);
-            // Divided by t step by step: t⁵ would underflow long before t does.
-            let c3 = ((20.0 * h / t - 8.0 * v1 - 12.0 * v0) / t - (3.0 * a0 - a1)) / (2.0 * t);
-            let c4 = ((-30.0 * h / t + 14.0 * v1 + 16.0 * v0) / t + (3.0 * a0 - 2.0 * a1)) / (2.0 * t * t);
-            let c5 = ((12.0 * h / t - 6.0 * (v1 + v0)) / t + (a1 - a0)) / (2.0 * t * t * t);
-            [q0, v0, a0 / 2.0, c3, c4, c5]
-        });
+    pub fn quintic(start: f64, duration: f64, from: &State, to: &State) -> Self {
+        let joints = 0..from.position.len().min(to.position.len());
+        let coefficients = joints.map(|j| quintic(from.of_joint(j), to.of_joint(j), duration)).collect();
         Self { start, duration, coefficients }
     }
 
     /// The joints at `s` seconds after the piece's start.
-    pub fn at(&self, s: f64) -> State<DOF> {
-        let derivative = |order: usize| {
-            std::array::from_fn(|j| {
-                self.coefficients[j].iter().enumerate().skip(order).rev().fold(0.0, |sum, (k, c)| {
-                    let factor: usize = (k + 1 - order..=k).product();
-                    sum * s + c * factor as f64
-                })
-            })
-        };
+    pub fn at(&self, s: f64) -> State {
+        let derivative =
+            |order: usize| self.coefficients.iter().map(|terms| derivative_at(terms, order, s)).collect();
         State {
             position: derivative(0),
             velocity: derivative(1),

@@ -1,6 +1,6 @@
 use super::Piece;
 use super::peak::peaks;
-use super::spline::{Via, durations_by_length, quintic_through};
+use super::spline::{Via, durations_by_length, joint_between};
 
 /// Rounds of evening out the pieces; more gain less than a percent.
 const ROUNDS: usize = 12;
@@ -31,13 +31,13 @@ const TICK_ROUNDS: usize = 32;
 ///
 /// Pieces that press against a limit are given more time, the others less, a few rounds long; then all are
 /// stretched by what the worst one needs.
-pub fn fastest_durations(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
+pub fn fastest_durations(vias: &[Via], limits: &[SpeedLimits]) -> Vec<f64> {
     let durations = fastest_between_ticks(vias, limits);
     let mut ticks: Vec<f64> = durations.iter().map(|duration| (duration / TICK).ceil().max(1.0)).collect();
     for round in 0.. {
         let durations: Vec<f64> = ticks.iter().map(|count| count * TICK).collect();
-        let pieces = quintic_through(vias, &durations);
-        let slow_down: Vec<f64> = pieces.iter().map(|piece| stretch(piece, limits) * HEADROOM).collect();
+        let slow_down: Vec<f64> =
+            stretches(vias, &durations, limits).iter().map(|stretch| stretch * HEADROOM).collect();
         // A piece's neighbours shape it, so that lengthening one may press another: in the end all are lengthened.
         let worst = slow_down.iter().copied().fold(0.0, f64::max);
         if worst <= 1.0 || durations.is_empty() || !worst.is_finite() {
@@ -73,12 +73,11 @@ pub fn rescaled(durations: &[f64], total: f64) -> Vec<f64> {
     on_ticks
 }
 
-fn fastest_between_ticks(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
+fn fastest_between_ticks(vias: &[Via], limits: &[SpeedLimits]) -> Vec<f64> {
     let mut durations = durations_by_length(vias, 1.0);
     let mut best: Option<(f64, Vec<f64>)> = None;
     for _ in 0..ROUNDS {
-        let stretches: Vec<f64> =
-            quintic_through(vias, &durations).iter().map(|piece| stretch(piece, limits)).collect();
+        let stretches = stretches(vias, &durations, limits);
         let worst = stretches.iter().copied().fold(0.0, f64::max) * HEADROOM;
         let total = durations.iter().sum::<f64>() * worst;
         if best.as_ref().is_none_or(|(least, _)| total < *least) {
@@ -91,16 +90,21 @@ fn fastest_between_ticks(vias: &[Via], limits: &[SpeedLimits; 2]) -> Vec<f64> {
     best.map_or(durations, |(_, durations)| durations)
 }
 
-/// By what factor `piece` must be slowed down to keep within `limits`; below 1 it could be faster.
-pub fn stretch(piece: &Piece<2>, limits: &[SpeedLimits; 2]) -> f64 {
-    piece
-        .coefficients
-        .iter()
-        .zip(limits)
-        .map(|(position, limit)| {
-            let [speed, push, jolt] = peaks(position, piece.duration);
-            let (speed, push, jolt) = (speed / limit.velocity, push / limit.acceleration, jolt / limit.jerk);
-            speed.max(push.sqrt()).max(libm::cbrt(jolt))
-        })
-        .fold(0.0, f64::max)
+/// By what factor `piece` must be slowed down to keep within `limits`, one per joint; below 1 it could be faster.
+pub fn stretch(piece: &Piece, limits: &[SpeedLimits]) -> f64 {
+    let joints = piece.coefficients.iter().zip(limits);
+    joints.map(|(position, limit)| joint_stretch(position, piece.duration, limit)).fold(0.0, f64::max)
+}
+
+/// [`stretch`] of each piece through `vias`.
+fn stretches(vias: &[Via], durations: &[f64], limits: &[SpeedLimits]) -> Vec<f64> {
+    let of_joint =
+        |i: usize, j: usize| joint_stretch(&joint_between(vias, durations, i, j), durations[i], &limits[j]);
+    (0..durations.len()).map(|i| (0..limits.len()).map(|j| of_joint(i, j)).fold(0.0, f64::max)).collect()
+}
+
+fn joint_stretch(position: &[f64; 6], duration: f64, limit: &SpeedLimits) -> f64 {
+    let [speed, push, jolt] = peaks(position, duration);
+    let (speed, push, jolt) = (speed / limit.velocity, push / limit.acceleration, jolt / limit.jerk);
+    speed.max(push.sqrt()).max(libm::cbrt(jolt))
 }

@@ -64,6 +64,15 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// The straight line between two points.
+    pub(super) fn segment(ends: &'a [Point; 2]) -> Self {
+        let [a, b] = ends;
+        let center = [0.5 * a.x + 0.5 * b.x, 0.5 * a.y + 0.5 * b.y];
+        let radius = length([b.x - center[0], b.y - center[1]]);
+        let size = [a.x, a.y, b.x, b.y].into_iter().fold(0.0, |most: f64, v| most.max(v.abs())) + radius;
+        Self { outline: Outline::Polygon(ends), center, radius, size }
+    }
+
     /// How far a distance from a link within `reach` (m) of the origin may be off (m).
     pub(super) fn rounding(&self, reach: f64) -> f64 {
         let size = self.size + reach;

@@ -16,13 +16,13 @@ const KINDS: [Quantity; 3] = [Quantity::Position, Quantity::Velocity, Quantity::
 /// Up to `continuous` nothing may jump. Beyond it a jump is held against a joint whose next rate is limited: to jump
 /// in velocity takes more acceleration than any limit allows.
 pub(super) fn check(
-    pieces: &[Piece<2>],
-    joints: &[Joint; 2],
+    pieces: &[Piece],
+    joints: &[Joint],
     continuous: Quantity,
     violations: &mut Vec<Violation>,
-) -> [f64; 2] {
-    let mut passed = [0.0f64; 2];
-    let mut worst: [[Option<(f64, f64)>; 3]; 2] = [[None; 3]; 2];
+) -> Vec<f64> {
+    let mut passed = vec![0.0_f64; joints.len()];
+    let mut worst: Vec<[Option<(f64, f64)>; 3]> = vec![[None; 3]; joints.len()];
     for pair in pieces.windows(2) {
         let [before, after] = [&pair[0], &pair[1]];
         let end = before.start + before.duration;
@@ -79,6 +79,6 @@ fn value(terms: &[f64; 6], order: usize, s: f64) -> (f64, f64) {
 }
 
 /// More than a joint's speed anywhere in the piece (rad/s).
-fn rate_size(piece: &Piece<2>, joint: usize) -> f64 {
+fn rate_size(piece: &Piece, joint: usize) -> f64 {
     value(&piece.coefficients[joint], 1, piece.duration).1
 }

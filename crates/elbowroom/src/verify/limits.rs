@@ -23,7 +23,7 @@ pub(super) struct JointReport {
 pub(super) fn check<'a>(
     joint: &Joint,
     j: usize,
-    pieces: impl Iterator<Item = &'a Piece<2>>,
+    pieces: impl Iterator<Item = &'a Piece>,
     violations: &mut Vec<Violation>,
 ) -> JointReport {
     let mut highest = Peak::NONE;
@@ -68,7 +68,7 @@ fn within(bound: f64, limit: f64) -> bool {
     bound <= limit * (1.0 + RATE_ROUNDING)
 }
 
-fn raise_size<const N: usize>(peak: &mut Peak, rate: &Bernstein<N>, piece: &Piece<2>) {
+fn raise_size<const N: usize>(peak: &mut Peak, rate: &Bernstein<N>, piece: &Piece) {
     peak.raise(rate, piece.start, piece.duration);
     peak.raise(&rate.negated(), piece.start, piece.duration);
 }
@@ -95,9 +95,9 @@ fn stop_margin(
 
 /// The pieces of a motion whose numbers the arithmetic can work with; the first of the others per joint is
 /// reported.
-pub(super) fn workable_pieces(motion: &Motion<2>, violations: &mut Vec<Violation>) -> Vec<Piece<2>> {
-    let mut reported = [false; 2];
-    let is_workable = |piece: &&Piece<2>| {
+pub(super) fn workable_pieces<'a>(motion: &'a Motion, violations: &mut Vec<Violation>) -> Vec<&'a Piece> {
+    let mut reported = vec![false; motion.joints()];
+    let is_workable = |piece: &&Piece| {
         let mut all = true;
         for (j, terms) in piece.coefficients.iter().enumerate() {
             let finite = Bernstein::<6>::derivative(terms, 0, piece.duration).is_finite()
@@ -112,5 +112,5 @@ pub(super) fn workable_pieces(motion: &Motion<2>, violations: &mut Vec<Violation
         }
         all
     };
-    motion.pieces().iter().filter(is_workable).copied().collect()
+    motion.pieces().iter().filter(is_workable).collect()
 }

@@ -18,6 +18,7 @@ mod sweep;
 mod trajectory;
 mod verdict;
 
+use crate::arm::Arm;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
@@ -28,7 +29,9 @@ pub use bound_tips::{OpenTips, bound_over_tips};
 pub use continuity::JUMP_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
 pub use trajectory::Trajectory;
-pub use verdict::{Clearance, JointMargin, MotionMargin, MotionMargins, Quantity, Rate, Verdict, Violation};
+pub use verdict::{
+    Against, Clearance, JointMargin, MotionMargin, MotionMargins, Quantity, Rate, Verdict, Violation,
+};
 
 /// Clearance that a safe motion has more of, whatever the margin (m).
 pub const FLOOR: f64 = 1e-9;
@@ -38,7 +41,7 @@ pub const FLOOR: f64 = 1e-9;
 pub struct VerifySettings {
     /// Clearance that a safe motion has more of (m); below [`FLOOR`] it counts as [`FLOOR`].
     pub margin: f64,
-    /// Configurations looked at per piece, link and obstacle before the pair is left undecided; half of them
+    /// Configurations looked at per piece and pair of a link and what it must not touch before the pair is left undecided; half of them
     /// may go into the accuracy of the least clearance.
     pub evaluations: u32,
     /// What must not jump where pieces meet, all before it included. Jumps beyond it count only against joints with
@@ -53,8 +56,8 @@ impl Default for VerifySettings {
     }
 }
 
-/// Judges whether the scene's arm can run `motion` safely: clear of all obstacles by more than the margin,
-/// within joint and motion limits, with position, velocity and acceleration that do not jump.
+/// Judges whether the scene's arm can run `motion` safely: clear of all obstacles, and of itself where the arm
+/// asks for it, by more than the margin, within joint and motion limits, with position, velocity and acceleration that do not jump.
 ///
 /// Start and end need not be at rest. Joint limits are closed and allowed 1e-12 rad of rounding, motion limits
 /// a share of 1e-12.
@@ -63,30 +66,42 @@ impl Default for VerifySettings {
 /// Schwarzer, Saha and Latombe, *Adaptive dynamic collision checking*, IEEE T-RO 21(3), 2005, for the bisection
 /// with motion bounds; Farouki, *The Bernstein polynomial basis: a centennial retrospective*, CAGD 29(6), 2012,
 /// for the bounds of the polynomials.
-pub fn verify(scene: &Scene, motion: &Motion<2>, settings: &VerifySettings) -> Verdict {
+pub fn verify<A: Arm>(scene: &Scene<A>, motion: &Motion, settings: &VerifySettings) -> Verdict {
     verify_until(scene, motion, settings, &|| true)
 }
 
-/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going` says no; asked for every piece, link
-/// and obstacle before the first configuration and again after every 64.
-pub fn verify_until(
-    scene: &Scene,
-    motion: &Motion<2>,
+/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going` says no; asked for every piece and
+/// pair before the first configuration and again after every 64.
+pub fn verify_until<A: Arm>(
+    scene: &Scene<A>,
+    motion: &Motion,
     settings: &VerifySettings,
     keep_going: &dyn Fn() -> bool,
 ) -> Verdict {
     let mut violations = Vec::new();
-    let pieces = limits::workable_pieces(motion, &mut violations);
     let joints = scene.arm.joints();
+    if motion.joints() != joints.len() {
+        let (found, joints, time) = (motion.joints(), joints.len(), motion.start());
+        violations.push(Violation::OtherArm { found, joints, time });
+        return Verdict {
+            violations,
+            least_clearance: None,
+            joint_margins: Vec::new(),
+            motion_margins: Vec::new(),
+            posture_changes: Vec::new(),
+        };
+    }
+    let pieces = limits::workable_pieces(motion, &mut violations);
     let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
-    let reports = [0, 1].map(|j| limits::check(&joints[j], j, pieces.iter(), &mut violations));
-    let least_clearance = sweep::check(scene, &pieces, passed_jumps, settings, keep_going, &mut violations);
+    let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
+    let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
+    let least_clearance = sweep::check(scene, &pieces, &passed_jumps, settings, keep_going, &mut violations);
     violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
     Verdict {
         violations,
         least_clearance,
-        joint_margins: reports.each_ref().map(|report| report.stops),
-        motion_margins: reports.map(|report| report.motion),
+        joint_margins: reports.iter().map(|report| report.stops).collect(),
+        motion_margins: reports.iter().map(|report| report.motion).collect(),
         posture_changes: posture_changes::posture_changes(&pieces),
     }
 }

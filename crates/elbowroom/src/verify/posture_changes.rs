@@ -19,12 +19,13 @@ const MOST_HALVINGS: u32 = 100_000;
 /// Halvings after which an interval is taken as a point.
 const DEEPEST: u32 = 50;
 
-/// Times (s) at which the second joint passes a multiple of π; a joint that only touches one, or begins or
-/// ends there, changes no posture.
-pub(super) fn posture_changes(pieces: &[Piece<2>]) -> Vec<f64> {
+/// Times (s) at which the second joint of two passes a multiple of π; a joint that only touches one, or begins or
+/// ends there, changes no posture. None for arms of more links, which have no two postures.
+pub(super) fn posture_changes(pieces: &[&Piece]) -> Vec<f64> {
     let mut walk = Walk { side: None, meeting: None, times: Vec::new(), halvings_left: MOST_HALVINGS };
     for piece in pieces {
-        let bend: Bernstein<6> = Bernstein::derivative(&piece.coefficients[1], 0, piece.duration);
+        let [_, bend] = &piece.coefficients[..] else { continue };
+        let bend: Bernstein<6> = Bernstein::derivative(bend, 0, piece.duration);
         let clock = Clock { start: piece.start, duration: piece.duration };
         walk.visit(bend.coefficients[0], clock.time(0.0));
         walk.search(&bend, &clock, (0.0, 1.0), 0);

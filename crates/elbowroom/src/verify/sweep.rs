@@ -1,9 +1,13 @@
-//! Both links against all obstacles, over all of a motion: bisection in time with bounds on the motion.
+//! All links against all that they must not touch, over all of a motion: bisection in time with bounds on the motion.
+
+use smallvec::SmallVec;
 
 use super::bernstein::Bernstein;
 use super::clearance::{Axis, Body};
-use super::verdict::{Clearance, Violation};
+use super::verdict::{Against, Clearance, Violation};
 use super::{FLOOR, VerifySettings};
+use crate::arm::Arm;
+use crate::geometry::Point;
 use crate::scene::Scene;
 use crate::trajectory::Piece;
 
@@ -33,36 +37,35 @@ const LEAST_SOUNDINGS: usize = 4;
 /// Rounds of taking the better two thirds of a dip; each tells the place better by half.
 const THIRDS: u32 = 40;
 
-/// Directions of what a link is made of over one piece (rad).
-#[derive(Clone, Copy)]
-struct Curves {
-    /// Of the arm that carries the link's start.
-    carrier: Bernstein<6>,
-    /// Of the link itself.
-    link: Bernstein<6>,
-}
+/// Directions over a stretch of time of the links that carry a link, and of the link itself, last (rad).
+type Curves = SmallVec<[Bernstein<6>; 2]>;
 
-impl Curves {
-    fn halves(&self) -> [Self; 2] {
-        let ([c0, c1], [l0, l1]) = (self.carrier.halves(), self.link.halves());
-        [Self { carrier: c0, link: l0 }, Self { carrier: c1, link: l1 }]
-    }
-}
-
-/// One piece, for both links.
+/// One piece, for all links.
 struct Stretch {
     start: f64,
     duration: f64,
-    links: [Curves; 2],
+    /// For each link that others are seen from, the directions of those after it; first those of all links, as seen
+    /// from the base.
+    directions: Vec<Vec<Bernstein<6>>>,
 }
 
 impl Stretch {
-    fn new(piece: &Piece<2>) -> Self {
-        let [q1, q2] =
-            piece.coefficients.each_ref().map(|terms| Bernstein::derivative(terms, 0, piece.duration));
-        let sum = q1.plus(&q2);
-        let links = [Curves { carrier: q1, link: q1 }, Curves { carrier: q1, link: sum }];
-        Self { start: piece.start, duration: piece.duration, links }
+    fn new(piece: &Piece, self_collision: bool) -> Self {
+        let joints: Vec<Bernstein<6>> =
+            piece.coefficients.iter().map(|terms| Bernstein::derivative(terms, 0, piece.duration)).collect();
+        let summed = |first: usize| {
+            let mut sums = vec![joints[first]];
+            for joint in &joints[first + 1..] {
+                sums.push(sums[sums.len() - 1].plus(joint));
+            }
+            sums
+        };
+        let seen_from = if self_collision { joints.len() } else { 1 };
+        Self {
+            start: piece.start,
+            duration: piece.duration,
+            directions: (0..seen_from).map(summed).collect(),
+        }
     }
 
     fn time(&self, fraction: f64) -> f64 {
@@ -72,35 +75,25 @@ impl Stretch {
 
 /// Reports contacts and what stays undecided; gives the least clearance of all. A jump between pieces, which
 /// passed as rounding, must not carry a link through what stays of the clearance: its way is kept on top.
-pub(super) fn check(
-    scene: &Scene,
-    pieces: &[Piece<2>],
-    passed_jumps: [f64; 2],
+pub(super) fn check<A: Arm>(
+    scene: &Scene<A>,
+    pieces: &[&Piece],
+    passed_jumps: &[f64],
     settings: &VerifySettings,
     keep_going: &dyn Fn() -> bool,
     violations: &mut Vec<Violation>,
 ) -> Option<Clearance> {
-    let stretches: Vec<Stretch> = pieces.iter().map(Stretch::new).collect();
+    let arm = &scene.arm;
+    let stretches: Vec<Stretch> =
+        pieces.iter().map(|piece| Stretch::new(piece, arm.self_collision())).collect();
     let bodies: Vec<Body> = scene.obstacles.iter().map(|obstacle| Body::new(&obstacle.shape)).collect();
-    let [l1, l2] = scene.arm.lengths();
-    let base = [scene.arm.base().x, scene.arm.base().y];
-    let half_width = scene.arm.half_width();
-    let reach = base[0].abs() + base[1].abs() + l1 + l2 + half_width;
-    let [jump1, jump2] = passed_jumps;
-    let pairs = bodies.iter().enumerate().flat_map(|(obstacle, body)| {
-        let rounding = body.rounding(reach) + (l1 + l2) * jump1 + l2 * jump2;
-        let pair = move |link: usize, carrier: f64, length: f64| Pair {
-            body,
-            link,
-            obstacle,
-            base,
-            carrier,
-            length,
-            half_width,
-            rounding,
-        };
-        [pair(0, 0.0, l1), pair(1, l1, l2)]
-    });
+    // Each link in its own frame, for those after it.
+    let lines: Vec<[Point; 2]> = match arm.self_collision() {
+        true => arm.lengths().iter().map(|&length| [Point::new(0.0, 0.0), Point::new(length, 0.0)]).collect(),
+        false => Vec::new(),
+    };
+    let links: Vec<Body> = lines.iter().map(Body::segment).collect();
+    let pairs = pairs(arm, &bodies, &links, passed_jumps);
     // Not `max`, which would turn a margin that is not a number into one that is.
     let margin = if settings.margin <= FLOOR { FLOOR } else { settings.margin };
     let mut judge = Judge {
@@ -111,19 +104,19 @@ pub(super) fn check(
         nearest: None,
         proved: f64::INFINITY,
     };
-    for pair in pairs.clone() {
+    for pair in &pairs {
         for stretch in stretches.iter().step_by(stretches.len().div_ceil(GLANCED_AT).max(1)) {
             for glance in 0..GLANCES {
-                judge.glance(&pair, stretch, f64::from(glance) / f64::from(GLANCES));
+                judge.glance(pair, stretch, f64::from(glance) / f64::from(GLANCES));
             }
         }
     }
     let before = violations.len();
-    for pair in pairs {
+    for pair in &pairs {
         if judge.stopped {
             break;
         }
-        violations.extend(judge.check_pair(&pair, &stretches));
+        violations.extend(judge.check_pair(pair, &stretches));
     }
     if judge.stopped {
         violations.push(Violation::Stopped { time: stretches.first().map_or(0.0, |stretch| stretch.start) });
@@ -135,40 +128,95 @@ pub(super) fn check(
     })
 }
 
-/// One link and one obstacle.
+/// Every link with every obstacle and, where `links` are given, with every link before it that is no neighbour: that
+/// one stands still where it is looked from, and the links between them are the carriers.
+fn pairs<'a>(
+    arm: &'a impl Arm,
+    obstacles: &'a [Body<'a>],
+    links: &'a [Body<'a>],
+    passed_jumps: &[f64],
+) -> Vec<Pair<'a>> {
+    let lengths = arm.lengths();
+    let base = [arm.base().x, arm.base().y];
+    let half_width = arm.half_width();
+    let reach = base[0].abs() + base[1].abs() + lengths.iter().sum::<f64>() + half_width;
+    let carried = (0..lengths.len()).map(|j| lengths[j..].iter().sum::<f64>() * passed_jumps[j]);
+    let jumps: f64 = carried.sum();
+    let mut pairs = Vec::with_capacity((obstacles.len() + links.len()) * lengths.len());
+    for (obstacle, body) in obstacles.iter().enumerate() {
+        for link in 0..lengths.len() {
+            pairs.push(Pair {
+                body,
+                link,
+                against: Against::Obstacle(obstacle),
+                base,
+                first: 0,
+                lengths: &lengths[..=link],
+                half_width,
+                rounding: body.rounding(reach) + jumps,
+            });
+        }
+    }
+    for (other, body) in links.iter().enumerate() {
+        for link in other + 2..lengths.len() {
+            pairs.push(Pair {
+                body,
+                link,
+                against: Against::Link(other + 1),
+                base: [lengths[other], 0.0],
+                first: other + 1,
+                lengths: &lengths[other + 1..=link],
+                half_width: 2.0 * half_width,
+                rounding: body.rounding(reach) + jumps,
+            });
+        }
+    }
+    pairs
+}
+
+/// A link and what it must not touch.
 #[derive(Clone, Copy)]
 struct Pair<'a> {
     body: &'a Body<'a>,
     link: usize,
-    obstacle: usize,
+    against: Against,
+    /// Where the carriers begin.
     base: [f64; 2],
-    /// From the base to the link's start (m).
-    carrier: f64,
-    length: f64,
+    /// The joint that turns the first carrier.
+    first: usize,
+    /// Of the carriers and, last, of the link (m).
+    lengths: &'a [f64],
     half_width: f64,
     /// How far a clearance may be off (m).
     rounding: f64,
 }
 
 impl Pair<'_> {
-    /// The link's centre line, with carrier and link in these directions (rad).
-    fn axis(&self, carrier: f64, link: f64) -> Axis {
+    fn length(&self) -> f64 {
+        self.lengths[self.lengths.len() - 1]
+    }
+
+    /// The link's centre line, with carriers and link in these directions (rad).
+    fn axis(&self, mut directions: impl Iterator<Item = f64>) -> Axis {
         let mut start = self.base;
-        if self.carrier > 0.0 {
-            let (sin, cos) = libm::sincos(carrier);
-            start = [start[0] + self.carrier * cos, start[1] + self.carrier * sin];
+        for length in &self.lengths[..self.lengths.len() - 1] {
+            let (sin, cos) = libm::sincos(directions.next().unwrap_or(f64::NAN));
+            start = [start[0] + length * cos, start[1] + length * sin];
         }
-        let (sin, cos) = libm::sincos(link);
-        Axis { start, along: [cos, sin], length: self.length }
+        let (sin, cos) = libm::sincos(directions.next().unwrap_or(f64::NAN));
+        Axis { start, along: [cos, sin], length: self.length() }
     }
 
     fn clearance(&self, axis: &Axis) -> f64 {
         self.body.distance(axis) - self.half_width
     }
 
+    fn curves<'a>(&self, stretch: &'a Stretch) -> &'a [Bernstein<6>] {
+        &stretch.directions[self.first][..self.lengths.len()]
+    }
+
     fn axis_at(&self, stretch: &Stretch, fraction: f64) -> Axis {
-        let curves = &stretch.links[self.link];
-        self.axis(curves.carrier.value(fraction), curves.link.value(fraction))
+        self.axis(self.curves(stretch).iter().map(|curve| curve.value(fraction)))
     }
 
     fn clearance_at(&self, stretch: &Stretch, fraction: f64) -> f64 {
@@ -197,27 +245,23 @@ struct Judge<'a> {
 
 impl Judge<'_> {
     fn check_pair(&mut self, pair: &Pair, stretches: &[Stretch]) -> Option<Violation> {
-        let (link, obstacle) = (pair.link + 1, pair.obstacle);
+        let (link, against) = (pair.link + 1, pair.against);
         let mut undecided = None;
         for (i, stretch) in stretches.iter().enumerate() {
             let mut progress = Progress::default();
             let at_start = pair.clearance_at(stretch, 0.0);
             let contact = if at_start > self.margin {
-                self.first_contact(pair, stretch, &stretch.links[pair.link], (0.0, 1.0, 0), &mut progress)
+                self.first_contact(pair, stretch, pair.curves(stretch), (0.0, 1.0, 0), &mut progress)
             } else {
                 Some(0.0)
             };
             if let Some(fraction) = contact {
                 let time = stretch.time(fraction);
                 let depth = self.depth(pair, &stretches[i..], fraction);
-                return Some(Violation::Contact { time, link, obstacle, depth });
+                return Some(Violation::Contact { time, link, against, depth });
             }
             if let Some(fraction) = progress.undecided {
-                undecided.get_or_insert(Violation::Undecided {
-                    time: stretch.time(fraction),
-                    link,
-                    obstacle,
-                });
+                undecided.get_or_insert(Violation::Undecided { time: stretch.time(fraction), link, against });
             }
             if progress.exhausted || self.stopped {
                 break;
@@ -232,7 +276,7 @@ impl Judge<'_> {
         &mut self,
         pair: &Pair,
         stretch: &Stretch,
-        curves: &Curves,
+        curves: &[Bernstein<6>],
         (from, width, depth): (f64, f64, u32),
         progress: &mut Progress,
     ) -> Option<f64> {
@@ -240,14 +284,16 @@ impl Judge<'_> {
             progress.undecided.get_or_insert(from);
             return None;
         }
-        let halves = curves.halves();
+        let (first, second): (Curves, Curves) = curves.iter().map(|curve| curve.halves().into()).unzip();
         let width = 0.5 * width;
         let middle = from + width;
-        let [carrier, link] = [halves[1].carrier.coefficients[0], halves[1].link.coefficients[0]];
-        let axis = pair.axis(carrier, link);
+        let at_middle = |k: usize| second[k].coefficients[0];
+        let axis = pair.axis((0..curves.len()).map(at_middle));
 
-        let carried = if pair.carrier > 0.0 { pair.carrier * curves.carrier.deviation(carrier) } else { 0.0 };
-        let turn = curves.link.deviation(link);
+        let deviation = |k: usize| curves[k].deviation(at_middle(k));
+        let carriers = pair.lengths[..curves.len() - 1].iter().enumerate();
+        let carried: f64 = carriers.map(|(k, length)| length * deviation(k)).sum();
+        let turn = deviation(curves.len() - 1);
         let enough = self.enough(progress);
         let lost = carried + pair.rounding + pair.half_width;
         let hull = pair.body.distance_of_hull(&axis, turn) - lost;
@@ -258,7 +304,7 @@ impl Judge<'_> {
         let clearance = pair.clearance(&axis);
         self.consider(pair, clearance, stretch.time(middle));
         let touches = !is_above(clearance, self.margin);
-        let still = depth == DEEPEST || carried + pair.length * turn <= STILL;
+        let still = depth == DEEPEST || carried + pair.length() * turn <= STILL;
         if touches && still {
             return Some(middle);
         }
@@ -273,14 +319,14 @@ impl Judge<'_> {
                 return None;
             }
         }
-        let left = self.first_contact(pair, stretch, &halves[0], (from, width, depth + 1), progress);
+        let left = self.first_contact(pair, stretch, &first, (from, width, depth + 1), progress);
         if left.is_some() || touches {
             return left.or(Some(middle));
         }
         if progress.exhausted {
             return None;
         }
-        self.first_contact(pair, stretch, &halves[1], (middle, width, depth + 1), progress)
+        self.first_contact(pair, stretch, &second, (middle, width, depth + 1), progress)
     }
 
     fn may_look(&mut self, progress: &mut Progress) -> bool {
@@ -304,7 +350,7 @@ impl Judge<'_> {
         }
     }
 
-    /// Looks at a configuration unless the disc around the obstacle is too far away to matter.
+    /// Looks at a configuration unless the disc around the other is too far away to matter.
     fn glance(&mut self, pair: &Pair, stretch: &Stretch, fraction: f64) {
         let axis = pair.axis_at(stretch, fraction);
         let hull = pair.body.distance_of_hull(&axis, 0.0) - pair.half_width;
@@ -321,8 +367,8 @@ impl Judge<'_> {
 
     fn consider(&mut self, pair: &Pair, distance: f64, time: f64) {
         if self.nearest.is_none_or(|nearest| distance < nearest.distance) {
-            let (link, obstacle) = (pair.link + 1, pair.obstacle);
-            self.nearest = Some(Clearance { distance, at_least: None, time, link, obstacle });
+            let (link, against) = (pair.link + 1, pair.against);
+            self.nearest = Some(Clearance { distance, at_least: None, time, link, against });
         }
     }
 

@@ -1,11 +1,12 @@
 use super::{Quantity, Verdict, VerifySettings, verify_until};
+use crate::arm::Arm;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
 
 /// A motion that is proved to be safe in its scene. There is no other way to make one than to have it judged.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
-    motion: Motion<2>,
+    motion: Motion,
     verdict: Verdict,
 }
 
@@ -14,9 +15,9 @@ impl Trajectory {
     ///
     /// # Errors
     /// The verdict, if it is not proved to be safe.
-    pub fn certify(
-        scene: &Scene,
-        motion: Motion<2>,
+    pub fn certify<A: Arm>(
+        scene: &Scene<A>,
+        motion: Motion,
         settings: &VerifySettings,
     ) -> Result<Self, Box<Verdict>> {
         Self::certify_until(scene, motion, settings, &|| true)
@@ -26,9 +27,9 @@ impl Trajectory {
     ///
     /// # Errors
     /// The verdict, if it is not proved to be safe, be it for want of time.
-    pub fn certify_until(
-        scene: &Scene,
-        motion: Motion<2>,
+    pub fn certify_until<A: Arm>(
+        scene: &Scene<A>,
+        motion: Motion,
         settings: &VerifySettings,
         keep_going: &dyn Fn() -> bool,
     ) -> Result<Self, Box<Verdict>> {
@@ -38,7 +39,7 @@ impl Trajectory {
     }
 
     /// The polynomials.
-    pub fn motion(&self) -> &Motion<2> {
+    pub fn motion(&self) -> &Motion {
         &self.motion
     }
 
@@ -48,7 +49,7 @@ impl Trajectory {
     }
 
     /// The polynomials, out of the verifier's hands.
-    pub fn into_motion(self) -> Motion<2> {
+    pub fn into_motion(self) -> Motion {
         self.motion
     }
 }

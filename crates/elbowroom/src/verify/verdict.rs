@@ -1,19 +1,21 @@
+use std::fmt;
+
 use thiserror::Error;
 
 /// What the verifier found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
     /// Why the motion is not safe, in order of time; none when it is. Of every kind at most one per joint, or
-    /// per link and obstacle.
+    /// per link and what it must not touch.
     pub violations: Vec<Violation>,
-    /// The nearest that a link comes to an obstacle; `None` without obstacles.
+    /// The nearest that a link comes to what it must not touch; `None` where there is nothing of the kind.
     pub least_clearance: Option<Clearance>,
     /// How near each joint comes to its stops, base first; `None` for a joint without stops.
-    pub joint_margins: [Option<JointMargin>; 2],
+    pub joint_margins: Vec<Option<JointMargin>>,
     /// The fastest of each joint, base first.
-    pub motion_margins: [MotionMargins; 2],
-    /// When the elbow changes sides (s), ascending; the first [`super::MOST_POSTURE_CHANGES`] of them. In a
-    /// continuous motion this happens at full stretch or fold only.
+    pub motion_margins: Vec<MotionMargins>,
+    /// When the elbow of an arm of two links changes sides (s), ascending; the first
+    /// [`super::MOST_POSTURE_CHANGES`] of them. In a continuous motion this happens at full stretch or fold only.
     pub posture_changes: Vec<f64>,
 }
 
@@ -24,20 +26,38 @@ impl Verdict {
     }
 }
 
-/// The nearest that a link comes to an obstacle.
+/// What a link must not touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Against {
+    /// An obstacle, by its place among the scene's, from 0.
+    Obstacle(usize),
+    /// A link that is no neighbour, 1 for the one at the base.
+    Link(usize),
+}
+
+impl fmt::Display for Against {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Obstacle(index) => write!(f, "obstacle {index}"),
+            Self::Link(link) => write!(f, "link {link}"),
+        }
+    }
+}
+
+/// The nearest that a link comes to what it must not touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clearance {
-    /// Between the link's outside and the obstacle (m); below 0 the depth.
+    /// Between the link's outside and the other (m); below 0 the depth.
     pub distance: f64,
-    /// Proved: at no time is any link nearer to any obstacle than this (m). No more than 1e-6 m or 1 % below
+    /// Proved: at no time is any link nearer to anything it must not touch than this (m). No more than 1e-6 m or 1 % below
     /// `distance`, unless the budget ran out; `None` when the motion touches an obstacle or is not proved not to.
     pub at_least: Option<f64>,
     /// When (s).
     pub time: f64,
     /// 1 for the link at the base.
     pub link: usize,
-    /// Its place among the scene's obstacles, from 0.
-    pub obstacle: usize,
+    /// To what.
+    pub against: Against,
 }
 
 /// How near a joint comes to its stops.
@@ -137,31 +157,29 @@ impl Quantity {
 /// scene, times are in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Violation {
-    /// A link comes as near to an obstacle as the margin, or touches it.
-    #[error(
-        "link {link} touches obstacle {obstacle} from {time} s on, {depth} m short of the clearance asked for"
-    )]
+    /// A link comes as near to what it must not touch as the margin, or touches it.
+    #[error("link {link} touches {against} from {time} s on, {depth} m short of the clearance asked for")]
     Contact {
         /// When first.
         time: f64,
         /// Which link.
         link: usize,
-        /// Which obstacle.
-        obstacle: usize,
+        /// What it touches.
+        against: Against,
         /// By how much the clearance falls short of the margin (m), at the worst of this contact; how far a
         /// centre line is inside a polygon does not count.
         depth: f64,
     },
-    /// It was not decided whether a link stays clear of an obstacle: the budget ran out, or the clearance
+    /// It was not decided whether a link stays clear of something: the budget ran out, or the clearance
     /// cannot be told from the floor in the arithmetic used.
-    #[error("whether link {link} stays clear of obstacle {obstacle} could not be decided from {time} s on")]
+    #[error("whether link {link} stays clear of {against} could not be decided from {time} s on")]
     Undecided {
         /// When first.
         time: f64,
         /// Which link.
         link: usize,
-        /// Which obstacle.
-        obstacle: usize,
+        /// What it touches.
+        against: Against,
     },
     /// A joint turns beyond a stop.
     #[error("joint {joint} turns to {angle} rad at {time} s, beyond its stop at {limit} rad")]
@@ -201,6 +219,16 @@ pub enum Violation {
         /// By how much.
         jump: f64,
     },
+    /// The motion is that of an arm with another number of joints.
+    #[error("the motion moves {found} joints, the arm has {joints}")]
+    OtherArm {
+        /// How many joints the motion moves.
+        found: usize,
+        /// How many the arm has.
+        joints: usize,
+        /// When the motion begins.
+        time: f64,
+    },
     /// The numbers of a piece are too large for the arithmetic.
     #[error("the numbers of joint {joint} are too large in the piece that begins at {time} s")]
     TooLarge {
@@ -226,6 +254,7 @@ impl Violation {
             | Self::JointLimit { time, .. }
             | Self::MotionLimit { time, .. }
             | Self::Discontinuity { time, .. }
+            | Self::OtherArm { time, .. }
             | Self::TooLarge { time, .. }
             | Self::Stopped { time } => time,
         }

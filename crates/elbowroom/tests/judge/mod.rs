@@ -24,7 +24,7 @@ pub(crate) fn clearance(scene: &Scene, q: [f64; 2]) -> f64 {
 }
 
 /// Position and its first three derivatives of joint `j` at `s` seconds after the piece's start.
-pub(crate) fn derivatives(piece: &Piece<2>, j: usize, s: f64) -> [f64; 4] {
+pub(crate) fn derivatives(piece: &Piece, j: usize, s: f64) -> [f64; 4] {
     let c = piece.coefficients[j];
     [
         c[0] + c[1] * s + c[2] * s.powi(2) + c[3] * s.powi(3) + c[4] * s.powi(4) + c[5] * s.powi(5),
@@ -35,7 +35,7 @@ pub(crate) fn derivatives(piece: &Piece<2>, j: usize, s: f64) -> [f64; 4] {
 }
 
 /// What is wrong with `motion` at any of `looks` instants of each piece, or between pieces; `None` if nothing is.
-pub(crate) fn fault(scene: &Scene, motion: &Motion<2>, looks: usize) -> Option<String> {
+pub(crate) fn fault(scene: &Scene, motion: &Motion, looks: usize) -> Option<String> {
     let mut last: Option<[[f64; 4]; 2]> = None;
     for (index, piece) in motion.pieces().iter().enumerate() {
         for look in 0..=looks {

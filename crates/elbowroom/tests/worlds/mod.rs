@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+use elbowroom::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
 use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
@@ -149,7 +149,7 @@ pub(crate) fn world(seed: u64) -> Option<Scene> {
         });
         if judge::clearance(&scene, q) > 1e-6 {
             ends.push(if numbers.flip() {
-                Place::Configuration(Configuration(q))
+                Place::Configuration(q.to_vec())
             } else {
                 let [_, _, tip] = judge::skeleton(&scene, q);
                 Place::Tip(Point::new(tip[0], tip[1]))

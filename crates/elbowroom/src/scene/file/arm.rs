@@ -2,10 +2,10 @@ use super::error::Problem;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
-use crate::arm::{ArmError, Joint, JointLimits, JointLimitsError, MotionLimits, TwoLinkArm};
+use crate::arm::{ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits, PlanarArm};
 use crate::geometry::Point;
 
-pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault> {
+pub(super) fn read(value: &Value<'_>, units: Units) -> Result<PlanarArm, Fault> {
     let map = value.map(&keys::ARM)?;
     let links_value = map.required("links")?;
     let links = links_value.list("a list of link lengths")?;
@@ -18,12 +18,13 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault>
         .collect::<Result<Vec<f64>, Fault>>()?;
     let joints_value = map.required("joints")?;
     let joints = joints_value.list("a list of joints")?;
-    let lengths = <[f64; 2]>::try_from(lengths)
-        .map_err(|found| links_value.fault(Problem::Links { found: found.len() }))?;
-    let [first, second] = &joints[..] else {
+    if !(2..=MOST_LINKS).contains(&lengths.len()) {
+        return Err(links_value.fault(Problem::Links { found: lengths.len() }));
+    }
+    if joints.len() != lengths.len() {
         return Err(joints_value.fault(Problem::Joints { found: joints.len(), links: lengths.len() }));
-    };
-    let joints = [joint(first, units)?, joint(second, units)?];
+    }
+    let joints = joints.iter().map(|value| joint(value, units)).collect::<Result<Vec<Joint>, Fault>>()?;
     let half_width = match map.optional("half_width") {
         Some(value) => match value.length(units)? {
             half_width if half_width >= 0.0 => half_width,
@@ -35,8 +36,13 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<TwoLinkArm, Fault>
         Some(value) => value.point(units)?,
         None => Point::new(0.0, 0.0),
     };
-    TwoLinkArm::new(base, lengths, half_width, joints).map_err(|error| match error {
+    let self_collision = match map.optional("self_collision") {
+        Some(value) => value.word(&["true", "false"])? == "true",
+        None => false,
+    };
+    PlanarArm::new(base, lengths, half_width, joints, self_collision).map_err(|error| match error {
         ArmError::Length { link, .. } => links[link - 1].out_of_range("at least 1e-6 m"),
+        ArmError::AlwaysTouching { link, .. } => links[link - 1].fault(error.into()),
         _ => value.fault(error.into()),
     })
 }

@@ -3,7 +3,7 @@ use std::fmt;
 use thiserror::Error;
 
 use super::Location;
-use crate::arm::ArmError;
+use crate::arm::{ArmError, MOST_LINKS};
 use crate::geometry::{CircleError, PolygonError};
 use crate::grid::GridError;
 use crate::scene::SceneProblem;
@@ -134,8 +134,8 @@ pub enum Problem {
         /// Upper stop.
         max: f64,
     },
-    /// The arm has as many links as this version cannot plan for.
-    #[error("{found} given; this version plans arms of 2 links")]
+    /// Fewer links than two, or more than are served.
+    #[error("{found} given; an arm has 2 to {MOST_LINKS} links")]
     Links {
         /// How many.
         found: usize,

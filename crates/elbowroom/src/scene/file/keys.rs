@@ -15,7 +15,8 @@ impl Keys {
 pub(super) const ROOT: Keys =
     Keys { required: &["elbowroom", "units", "arm", "grid"], optional: &["obstacles", "tasks"] };
 pub(super) const UNITS: Keys = Keys { required: &["length", "angle"], optional: &[] };
-pub(super) const ARM: Keys = Keys { required: &["links", "joints"], optional: &["half_width", "base"] };
+pub(super) const ARM: Keys =
+    Keys { required: &["links", "joints"], optional: &["half_width", "base", "self_collision"] };
 pub(super) const JOINT: Keys =
     Keys { required: &[], optional: &["continuous", "min", "max", "velocity", "acceleration", "jerk"] };
 pub(super) const GRID: Keys = Keys { required: &["x", "y", "step"], optional: &[] };

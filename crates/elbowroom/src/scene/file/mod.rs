@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 pub use error::{Problem, SceneError};
 
 use super::Scene;
+use crate::arm::{Arm, PlanarArm};
 use units::Units;
 use value::{Fault, Value};
 
@@ -56,7 +57,7 @@ impl Locations {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
     /// The scene.
-    pub scene: Scene,
+    pub scene: Scene<PlanarArm>,
     /// Where its tasks are.
     pub locations: Locations,
 }
@@ -75,7 +76,8 @@ pub struct SceneFile {
 /// grid: {x: [-700, 700], y: [-700, 700], step: 10}
 /// ";
 /// let file = elbowroom::scene::parse(text, "cell.yaml")?;
-/// assert_eq!(file.scene.arm.lengths(), [0.4, 0.25]);
+/// let scene = file.scene.two_link().expect("the arm has two links");
+/// assert_eq!(scene.arm.lengths(), [0.4, 0.25]);
 /// # Ok::<(), elbowroom::scene::SceneError>(())
 /// ```
 pub fn parse(text: &str, file: &str) -> Result<SceneFile, SceneError> {
@@ -99,7 +101,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
         None => Vec::new(),
     };
     let (tasks, ends) = match map.optional("tasks") {
-        Some(value) => tasks::read(&value, units)?,
+        Some(value) => tasks::read(&value, units, arm.lengths().len())?,
         None => Default::default(),
     };
     let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;

@@ -4,14 +4,14 @@ use super::Location;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Value};
-use crate::arm::Configuration;
 use crate::scene::problem::{GREATEST_ANGLE, MOST_TASKS};
 use crate::scene::{Place, SceneProblem, Task, TaskPosture};
 
 /// The tasks, and where each has its start and goal.
 pub(super) type Tasks = (Vec<Task>, BTreeMap<String, [Location; 2]>);
 
-pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Tasks, Fault> {
+/// The tasks of an arm of so many `joints`.
+pub(super) fn read(value: &Value<'_>, units: Units, joints: usize) -> Result<Tasks, Fault> {
     let mut tasks = Vec::new();
     let mut ends = BTreeMap::new();
     let named = value.named()?;
@@ -32,8 +32,8 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Tasks, Fault> {
         };
         tasks.push(Task {
             name: name.to_owned(),
-            start: place(&start, units)?,
-            goal: place(&goal, units)?,
+            start: place(&start, units, joints)?,
+            goal: place(&goal, units, joints)?,
             posture,
         });
         ends.insert(name.to_owned(), [start.at(), goal.at()]);
@@ -41,14 +41,28 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Tasks, Fault> {
     Ok((tasks, ends))
 }
 
-fn place(value: &Value<'_>, units: Units) -> Result<Place, Fault> {
+fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault> {
     if value.is_map() {
         let map = value.map(&keys::PLACE)?;
-        let [q1, q2] = map.required("q")?.pair("[q1, q2], a joint angle each")?;
-        return Ok(Place::Configuration(Configuration([joint(&q1, units)?, joint(&q2, units)?])));
+        let allowed = format!("[{}], a joint angle each", names(joints));
+        let q = map.required("q")?;
+        let angles = q.list(&allowed)?;
+        if angles.len() != joints {
+            return Err(q.shape(allowed));
+        }
+        let angles = angles.iter().map(|angle| joint(angle, units)).collect::<Result<Vec<f64>, Fault>>()?;
+        return Ok(Place::Configuration(angles));
     }
-    let [x, y] = value.pair("[x, y], or {q: [q1, q2]}")?;
+    let [x, y] = value.pair(&format!("[x, y], or {{q: [{}]}}", names(joints)))?;
     Ok(Place::Tip(crate::geometry::Point::new(x.length(units)?, y.length(units)?)))
+}
+
+/// `q1, q2` or, for more joints than three, `q1, ..., q5`.
+fn names(joints: usize) -> String {
+    match joints {
+        0..=3 => (1..=joints).map(|j| format!("q{j}")).collect::<Vec<_>>().join(", "),
+        _ => format!("q1, ..., q{joints}"),
+    }
 }
 
 fn joint(value: &Value<'_>, units: Units) -> Result<f64, Fault> {

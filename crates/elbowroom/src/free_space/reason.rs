@@ -1,0 +1,123 @@
+use thiserror::Error;
+
+use super::CONTACT_FLOOR;
+use super::state::touches;
+use crate::arm::{Arm, JointLimits};
+use crate::geometry::Segment;
+use crate::scene::Scene;
+
+/// What forbids a configuration, or a place of the tip in one posture.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Reason {
+    /// The links cannot put the tip there.
+    #[error(
+        "the tip would be {distance:.6} m from the base, the arm reaches {nearest:.6} m to {farthest:.6} m"
+    )]
+    OutOfReach {
+        /// From base to tip (m).
+        distance: f64,
+        /// Nearest to the base that the links allow (m).
+        nearest: f64,
+        /// Farthest from the base (m).
+        farthest: f64,
+    },
+    /// A joint would have to stand outside its limits.
+    #[error("joint {joint} would stand at {angle:.6} rad, {}", in_words(limits))]
+    JointLimit {
+        /// 1 for the joint at the base.
+        joint: usize,
+        /// Where it would stand (rad).
+        angle: f64,
+        /// Where it may stand.
+        limits: JointLimits,
+    },
+    /// A link would touch an obstacle.
+    #[error("link {link} would be {depth:.6} m deep in obstacle {}", title(*obstacle, name.as_deref()))]
+    Collision {
+        /// 1 for the link at the base.
+        link: usize,
+        /// The obstacle's place in the scene, from 0.
+        obstacle: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// How deep the link enters it, its own half width included (m): of all contacts the deepest.
+        depth: f64,
+    },
+    /// Two links that are no neighbours would touch.
+    #[error("link {link} would be {depth:.6} m deep in link {other}")]
+    SelfCollision {
+        /// The one nearer to the base, 1 for the link there.
+        link: usize,
+        /// The other one.
+        other: usize,
+        /// How much less far apart they are than their half widths ask for (m).
+        depth: f64,
+    },
+}
+
+/// What forbids the configuration `q` (rad): the first joint beyond its stops, else the deepest contact with an obstacle,
+/// else the deepest of links with each other.
+pub fn reason_against<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
+    for (j, (joint, &angle)) in scene.arm.joints().iter().zip(q).enumerate() {
+        if !joint.limits.contains(angle) {
+            return Some(Reason::JointLimit { joint: j + 1, angle, limits: joint.limits });
+        }
+    }
+    deepest_contact(scene, q).or_else(|| deepest_self_contact(scene, q))
+}
+
+pub(super) fn deepest_contact<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
+    let mut deepest: Option<(usize, usize, f64)> = None;
+    for (link, segment) in scene.arm.link_segments(q).enumerate() {
+        for (index, obstacle) in scene.obstacles.iter().enumerate() {
+            if touches(&scene.arm, obstacle, segment) {
+                let depth = scene.arm.half_width() - obstacle.signed_distance_to_segment(segment);
+                if deepest.is_none_or(|(_, _, known)| depth > known) {
+                    deepest = Some((link, index, depth));
+                }
+            }
+        }
+    }
+    deepest.map(|(link, obstacle, depth)| Reason::Collision {
+        link: link + 1,
+        obstacle,
+        name: scene.obstacles[obstacle].name.clone(),
+        // A link that only comes within the floor of contact is 0 m deep.
+        depth: depth.max(0.0),
+    })
+}
+
+fn deepest_self_contact<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
+    if !scene.arm.self_collision() {
+        return None;
+    }
+    let segments: Vec<Segment> = scene.arm.link_segments(q).collect();
+    let mut deepest: Option<(usize, usize, f64)> = None;
+    for (link, segment) in segments.iter().enumerate() {
+        for (other, far) in segments.iter().enumerate().skip(link + 2) {
+            let depth = 2.0 * scene.arm.half_width() - segment.distance_to_segment(*far);
+            if depth >= -CONTACT_FLOOR && deepest.is_none_or(|(_, _, known)| depth > known) {
+                deepest = Some((link, other, depth));
+            }
+        }
+    }
+    deepest.map(|(link, other, depth)| Reason::SelfCollision {
+        link: link + 1,
+        other: other + 1,
+        depth: depth.max(0.0),
+    })
+}
+
+fn in_words(limits: &JointLimits) -> String {
+    match limits {
+        JointLimits::Continuous => "which is no angle".to_owned(),
+        JointLimits::Range { min, max } => format!("it may turn from {min:.6} rad to {max:.6} rad"),
+    }
+}
+
+fn title(obstacle: usize, name: Option<&str>) -> String {
+    match name {
+        Some(name) => format!("{obstacle} ({name})"),
+        None => obstacle.to_string(),
+    }
+}
