@@ -371,7 +371,7 @@ fn settings_are_checked() {
     assert_eq!(good.check(), Ok(()));
     let bounds = cube(30, 1.0);
     let wrong = |settings: SwarmSettings| {
-        assert_eq!(settings.check().err(), Swarm::new(&bounds, &settings, 0).err());
+        assert_eq!(settings.check().err(), Swarm::<f64>::new(&bounds, &settings, 0).err());
         settings.check().unwrap_err()
     };
     let ring = |particles, k| SwarmSettings { particles, neighbourhood: Neighbourhood::Ring { k }, ..good };

@@ -2,22 +2,29 @@
 
 use std::collections::VecDeque;
 
+use super::Value;
+
 /// Whether particle `a` is better than `b`; of equal values the first particle's is.
-fn better(values: &[f64], a: usize, b: usize) -> bool {
-    values[a] < values[b] || (values[a] == values[b] && a < b)
+fn better<V: Value>(values: &[V], a: usize, b: usize) -> bool {
+    values[a].is_better(values[b]) || (!values[b].is_better(values[a]) && a < b)
 }
 
-/// The particle of the least value; no value may be NaN.
-pub(super) fn best(values: &[f64]) -> usize {
+/// The particle of the best value.
+pub(super) fn best<V: Value>(values: &[V]) -> usize {
     (1..values.len())
-        .fold(0, |least, particle| if values[particle] < values[least] { particle } else { least })
+        .fold(0, |least, particle| if values[particle].is_better(values[least]) { particle } else { least })
 }
 
 /// Writes for each particle of a ring the best of itself and the `k` on each side; needs `2 k < values.len()`.
 ///
 /// `waiting` keeps those of the window that may yet be its best, the best first: one pass, whatever `k` is.
 /// It needs room for all particles, or it takes it.
-pub(super) fn ring_bests(values: &[f64], k: usize, waiting: &mut VecDeque<usize>, bests: &mut [usize]) {
+pub(super) fn ring_bests<V: Value>(
+    values: &[V],
+    k: usize,
+    waiting: &mut VecDeque<usize>,
+    bests: &mut [usize],
+) {
     let particles = values.len();
     waiting.clear();
     // Places count on from the first particle's leftmost neighbour; place `p` is particle `p - k`.

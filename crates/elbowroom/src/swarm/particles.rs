@@ -6,18 +6,18 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
 use super::neighbours::{best, ring_bests};
-use super::{Bounds, Neighbourhood, SwarmError, SwarmSettings};
+use super::{Bounds, Neighbourhood, SwarmError, SwarmSettings, Value};
 
 /// The most coordinates that all particles of a swarm may have together.
 pub const MAX_COORDINATES: usize = 1 << 24;
 
 /// What a swarm found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Minimum {
+pub struct Minimum<V = f64> {
     /// The best position that was evaluated.
     pub position: Vec<f64>,
-    /// The objective there; infinite if it was nowhere less.
-    pub value: f64,
+    /// The objective there; the worst of values, as infinity, if it was nowhere better.
+    pub value: V,
     /// How often the objective was asked.
     pub evaluations: usize,
 }
@@ -33,29 +33,29 @@ pub struct Minimum {
 /// Shi and Eberhart, *A modified particle swarm optimizer* (1998); first velocities as in Clerc's *Standard
 /// particle swarm optimisation* (2007), section 3.
 #[derive(Debug, Clone)]
-pub struct Swarm {
-    bounds: Bounds,
-    settings: SwarmSettings,
+pub struct Swarm<V: Value = f64> {
+    pub(super) bounds: Bounds,
+    pub(super) settings: SwarmSettings,
     /// Greatest speed in each dimension.
     v_max: Vec<f64>,
     // One array for each property, particle after particle.
-    positions: Vec<f64>,
-    velocities: Vec<f64>,
-    personal_bests: Vec<f64>,
+    pub(super) positions: Vec<f64>,
+    pub(super) velocities: Vec<f64>,
+    pub(super) personal_bests: Vec<f64>,
     /// The objective at each personal best.
-    values: Vec<f64>,
+    pub(super) values: Vec<V>,
     /// For each particle the one with the best personal best of its neighbourhood.
     neighbour_bests: Vec<usize>,
-    swarm_best: usize,
-    iteration: usize,
-    rng: ChaCha8Rng,
+    pub(super) swarm_best: usize,
+    pub(super) iteration: usize,
+    pub(super) rng: ChaCha8Rng,
     /// Random bytes for one particle: two numbers for each coordinate.
-    draws: Vec<[u8; 8]>,
+    pub(super) draws: Vec<[u8; 8]>,
     /// Scratch of the ring.
     waiting: VecDeque<usize>,
 }
 
-impl Swarm {
+impl<V: Value> Swarm<V> {
     /// A swarm at random positions, not yet evaluated.
     ///
     /// # Errors
@@ -73,7 +73,7 @@ impl Swarm {
             positions: vec![0.0; particles * dimensions],
             velocities: vec![0.0; particles * dimensions],
             personal_bests: Vec::new(),
-            values: vec![f64::INFINITY; particles],
+            values: vec![V::WORST; particles],
             neighbour_bests: vec![0; particles],
             swarm_best: 0,
             iteration: 0,
@@ -82,6 +82,32 @@ impl Swarm {
             waiting: VecDeque::with_capacity(particles),
         };
         swarm.scatter();
+        swarm.personal_bests = swarm.positions.clone();
+        Ok(swarm)
+    }
+
+    /// A swarm whose first particles stand at `positions`, clamped to the box, and the others anywhere in it.
+    ///
+    /// # Errors
+    /// [`SwarmError`] if a setting makes no sense, there are more positions than particles, or one has another number of
+    /// coordinates than the box.
+    pub fn starting_at(
+        bounds: &Bounds,
+        settings: &SwarmSettings,
+        positions: &[Vec<f64>],
+        seed: u64,
+    ) -> Result<Self, SwarmError> {
+        let mut swarm = Self::new(bounds, settings, seed)?;
+        let (particles, dimensions) = (settings.particles, bounds.dimensions());
+        let odd = positions.iter().map(Vec::len).find(|len| *len != dimensions);
+        if odd.is_some() || positions.len() > particles {
+            let (found, coordinates) = (positions.len(), odd.unwrap_or(dimensions));
+            return Err(SwarmError::Start { found, coordinates, particles, dimensions });
+        }
+        let coordinates = positions.iter().flat_map(|position| position.iter().copied().enumerate());
+        for (at, (d, x)) in swarm.positions.iter_mut().zip(coordinates) {
+            *at = clamped(x, bounds.min()[d], bounds.max()[d]);
+        }
         swarm.personal_bests = swarm.positions.clone();
         Ok(swarm)
     }
@@ -103,10 +129,26 @@ impl Swarm {
     }
 
     /// One iteration: every particle moves, but for the first one, and is evaluated.
-    pub fn step(&mut self, objective: &mut impl FnMut(&[f64]) -> f64) {
+    pub fn step(&mut self, objective: &mut impl FnMut(&[f64]) -> V) {
         if self.iteration > 0 {
             self.advance();
         }
+        self.look_around(objective);
+    }
+
+    /// [`step`](Self::step) with `shape` put to every velocity before the particle moves by it.
+    pub fn step_shaped(
+        &mut self,
+        objective: &mut impl FnMut(&[f64]) -> V,
+        shape: &mut impl FnMut(&mut [f64]),
+    ) {
+        if self.iteration > 0 {
+            self.advance_shaped(shape);
+        }
+        self.look_around(objective);
+    }
+
+    fn look_around(&mut self, objective: &mut impl FnMut(&[f64]) -> V) {
         self.evaluate(objective);
         self.swarm_best = best(&self.values);
         match self.settings.neighbourhood {
@@ -148,24 +190,53 @@ impl Swarm {
         }
     }
 
+    /// [`advance`](Self::advance) in two passes for each particle, with `shape` between them.
+    fn advance_shaped(&mut self, shape: &mut impl FnMut(&mut [f64])) {
+        let inertia = self.settings.inertia(self.iteration);
+        let (c_personal, c_neighbour) = (self.settings.c_personal, self.settings.c_neighbour);
+        let dimensions = self.bounds.dimensions();
+        for (particle, &neighbour) in self.neighbour_bests.iter().enumerate() {
+            self.rng.fill_bytes(self.draws.as_flattened_mut());
+            let row = particle * dimensions;
+            let position = &mut self.positions[row..][..dimensions];
+            let velocity = &mut self.velocities[row..][..dimensions];
+            for d in 0..dimensions {
+                let [r1, r2] = units(self.draws[d]);
+                let x = position[d];
+                let v = inertia * velocity[d]
+                    + c_personal * r1 * (self.personal_bests[row + d] - x)
+                    + c_neighbour * r2 * (self.personal_bests[neighbour * dimensions + d] - x);
+                velocity[d] = clamped(v, -self.v_max[d], self.v_max[d]);
+            }
+            shape(velocity);
+            for d in 0..dimensions {
+                let to = position[d] + velocity[d];
+                let inside = clamped(to, self.bounds.min()[d], self.bounds.max()[d]);
+                velocity[d] = if inside == to { velocity[d] } else { 0.0 };
+                position[d] = inside;
+            }
+        }
+    }
+
     /// Asks the objective at every position and keeps what is better than the personal best.
-    fn evaluate(&mut self, objective: &mut impl FnMut(&[f64]) -> f64) {
+    pub(super) fn evaluate(&mut self, objective: &mut impl FnMut(&[f64]) -> V) {
         let dimensions = self.bounds.dimensions();
         let rows = self.positions.chunks_exact(dimensions);
         let bests = self.personal_bests.chunks_exact_mut(dimensions).zip(&mut self.values);
         for (position, (personal_best, best)) in rows.zip(bests) {
-            // Not a number is never less: it counts as infinite.
+            // Not a number is never better: it counts as infinite.
             let value = objective(position);
-            if value < *best {
+            if value.is_better(*best) {
                 *best = value;
                 personal_best.copy_from_slice(position);
             }
         }
     }
 
-    /// The best position evaluated so far and the objective there; infinite as long as nothing was less.
+    /// The best position evaluated so far and the objective there; the worst of values, as infinity, as long
+    /// as nothing was better.
     #[must_use]
-    pub fn best(&self) -> (&[f64], f64) {
+    pub fn best(&self) -> (&[f64], V) {
         let dimensions = self.bounds.dimensions();
         let position = &self.personal_bests[self.swarm_best * dimensions..][..dimensions];
         (position, self.values[self.swarm_best])
@@ -195,7 +266,7 @@ impl Swarm {
 
     /// The objective at each particle's personal best.
     #[must_use]
-    pub fn values(&self) -> &[f64] {
+    pub fn values(&self) -> &[V] {
         &self.values
     }
 
@@ -221,12 +292,12 @@ impl Swarm {
 /// assert!(found.value < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn minimise(
-    mut objective: impl FnMut(&[f64]) -> f64,
+pub fn minimise<V: Value>(
+    mut objective: impl FnMut(&[f64]) -> V,
     bounds: &Bounds,
     settings: &SwarmSettings,
     seed: u64,
-) -> Result<Minimum, SwarmError> {
+) -> Result<Minimum<V>, SwarmError> {
     let mut swarm = Swarm::new(bounds, settings, seed)?;
     for _ in 0..settings.iterations {
         swarm.step(&mut objective);
@@ -237,14 +308,14 @@ pub fn minimise(
 
 /// `value` or the end of the range that it is at or beyond; not a number gives `min`.
 #[inline]
-fn clamped(value: f64, min: f64, max: f64) -> f64 {
+pub(super) fn clamped(value: f64, min: f64, max: f64) -> f64 {
     let above = if value > min { value } else { min };
     if above < max { above } else { max }
 }
 
 /// Two numbers in [0, 1), multiples of 2^-32: the low half of the bytes gives the first.
 #[inline]
-fn units(draw: [u8; 8]) -> [f64; 2] {
+pub(super) fn units(draw: [u8; 8]) -> [f64; 2] {
     let word = u64::from_le_bytes(draw);
     // As the upper bits of a fraction they give a number in [1, 2) without a conversion.
     let from_fraction = |upper: u64| f64::from_bits(1.0_f64.to_bits() | upper << 20) - 1.0;

@@ -88,6 +88,20 @@ pub enum SwarmError {
         /// What was given.
         value: f64,
     },
+    /// A position to start at has another number of coordinates than the box, or there are more than particles.
+    #[error(
+        "{found} positions to start at of {coordinates} coordinates, for {particles} particles of {dimensions} dimensions"
+    )]
+    Start {
+        /// How many positions.
+        found: usize,
+        /// How many coordinates the first at fault has.
+        coordinates: usize,
+        /// How many particles there are.
+        particles: usize,
+        /// How many coordinates each has.
+        dimensions: usize,
+    },
     /// The swarm would not be evaluated at all.
     #[error("0 iterations, at least 1 is needed")]
     Iterations,
