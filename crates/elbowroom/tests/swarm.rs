@@ -396,7 +396,7 @@ fn settings_are_checked() {
 
     for particles in [0, MAX_COORDINATES / 30 + 1, usize::MAX] {
         let crowd = SwarmSettings { particles, ..good };
-        let error = Swarm::new(&bounds, &crowd, 0).unwrap_err();
+        let error = Swarm::<f64>::new(&bounds, &crowd, 0).unwrap_err();
         assert_eq!(error, SwarmError::Particles { particles, dimensions: 30 });
     }
 }
