@@ -1,8 +1,8 @@
 //! Scene files: what they say, and what is said of those that are wrong.
 
 use elbowroom::arm::{Arm, JointLimits, MotionLimits};
-use elbowroom::geometry::Point;
-use elbowroom::scene::{Location, Place, Shape, TaskPosture, parse};
+use elbowroom::geometry::{Point, Vector};
+use elbowroom::scene::{Course, Location, Mover, Place, Shape, Sight, TaskPosture, Waypoint, parse};
 
 const SOUND: &str = "\
 elbowroom: 1
@@ -273,8 +273,9 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ("name: post", "name: \"\"", "s.yaml:13:11: obstacles[0].name: found the text \"\"; allowed: a name"),
         (
             "name: post",
-            "motion: 1",
-            "s.yaml:13:5: obstacles[0].motion: no such key; known here: circle, polygon, name",
+            "moves: 1",
+            "s.yaml:13:5: obstacles[0].moves: no such key; known here: circle, polygon, name, motion, greatest_speed, \
+             seen, seen_from, sensing_radius",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",
@@ -336,4 +337,65 @@ fn files_that_are_no_scene_at_all_are_refused() {
         assert!(found.starts_with(expected), "{text:?}\nfound    {found}\nexpected {expected}");
     }
     assert!(message(&format!("{SOUND}---\n{SOUND}")).contains("a second document begins"));
+}
+
+#[test]
+fn obstacles_that_move_are_read_with_their_units() {
+    let entry = |extra: &str| format!("  - {{circle: {{center: [22, 22], radius: 5}}, name: post, {extra}}}");
+    let with = |extra: &str| {
+        SOUND.replacen("  - circle: {center: [22, 22], radius: 5}\n    name: post", &entry(extra), 1)
+    };
+    let movers = |extra: &str| parse(&with(extra), "s.yaml").unwrap().movers;
+    let waypoints = "motion: {waypoints: [{time: 0, shift: [0, 0]}, {time: 2, shift: [10, -5]}]}";
+    let shift = |x, y| Vector::new(x, y);
+    let course = Course::Waypoints(vec![
+        Waypoint { time: 0.0, shift: shift(0.0, 0.0) },
+        Waypoint { time: 2.0, shift: shift(0.1, -0.05) },
+    ]);
+    assert_eq!(movers(waypoints), [Mover::new(0, course, Sight::Always, None).unwrap()]);
+    let drift = Course::Drift { start: 1.5, velocity: shift(0.0, 0.2) };
+    let late = "motion: {velocity: [0, 20], start: 1.5}, seen: false, seen_from: 3, greatest_speed: 25";
+    assert_eq!(movers(late), [Mover::new(0, drift, Sight::From(3.0), Some(0.25)).unwrap()]);
+    let near = "motion: {chases: tip}, greatest_speed: 5, seen: false, sensing_radius: 30";
+    assert_eq!(movers(near), [Mover::new(0, Course::Chase, Sight::Within(0.3), Some(0.05)).unwrap()]);
+    assert!(parse(SOUND, "s.yaml").unwrap().movers.is_empty());
+    for (extra, wrong) in [
+        (
+            "motion: {}",
+            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases",
+        ),
+        (
+            "motion: {velocity: [1, 0], chases: tip}",
+            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases",
+        ),
+        ("motion: {waypoints: []}", "motion: 0 way-points, 1 to 10000 are allowed"),
+        ("motion: {chases: tip}", "motion: missing: greatest_speed, beside chases"),
+        ("motion: {chases: base}, greatest_speed: 1", "motion.chases: found base; allowed: tip"),
+        (
+            "motion: {velocity: [3, 4]}, greatest_speed: 4",
+            "greatest_speed: the course goes at 0.05 m/s, the greatest speed declared is 0.04 m/s",
+        ),
+        ("seen: false", "seen: found false; allowed: only beside motion"),
+        (
+            "motion: {velocity: [1, 0]}, seen: false",
+            "seen: missing: seen_from or sensing_radius, beside seen: false",
+        ),
+        ("motion: {velocity: [1, 0]}, seen_from: 3", "seen_from: found 3; allowed: only beside seen: false"),
+        (
+            "motion: {velocity: [1, 0]}, speed: 3",
+            "speed: no such key; known here: circle, polygon, name, motion, greatest_speed, seen, seen_from, sensing_radius",
+        ),
+        (
+            "motion: {waypoints: [{time: 1, shift: [0, 0]}, {time: 1, shift: [1, 0]}]}",
+            "motion: way-point 1 is at 1 s, which is not after the 1 s of the one before",
+        ),
+    ] {
+        let found = after_place(&message(&with(extra)));
+        assert!(found.starts_with(&format!("obstacles[0].{wrong}")), "{extra}\n{found}");
+    }
+}
+
+/// Without file, line and column.
+fn after_place(message: &str) -> String {
+    message.splitn(4, ':').nth(3).unwrap_or(message).trim_start().to_owned()
 }

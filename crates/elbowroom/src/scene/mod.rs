@@ -1,6 +1,7 @@
 //! What is asked: an arm among obstacles, the grid of its map, and the tasks.
 
 mod file;
+mod mover;
 mod obstacle;
 mod problem;
 mod task;
@@ -9,6 +10,7 @@ use crate::arm::{Arm, PlanarArm, TwoLinkArm};
 use crate::grid::Grid;
 
 pub use file::{Location, Locations, Problem, SceneError, SceneFile, parse};
+pub use mover::{Course, MOST_WAYPOINTS, Mover, MoverError, Sight, Waypoint};
 pub use obstacle::{Obstacle, Shape};
 pub use problem::SceneProblem;
 pub use task::{Place, Task, TaskPosture};

@@ -12,6 +12,8 @@ mod bound_tips;
 mod clearance;
 mod continuity;
 mod limits;
+mod moving;
+mod pairs;
 mod peak;
 mod posture_changes;
 mod sweep;
@@ -19,7 +21,7 @@ mod trajectory;
 mod verdict;
 
 use crate::arm::Arm;
-use crate::scene::Scene;
+use crate::scene::{Mover, Scene};
 use crate::trajectory::Motion;
 
 pub(crate) use bound::images;
@@ -78,6 +80,19 @@ pub fn verify_until<A: Arm>(
     settings: &VerifySettings,
     keep_going: &dyn Fn() -> bool,
 ) -> Verdict {
+    verify_among(scene, &[], motion, settings, keep_going)
+}
+
+/// [`verify_until`] with obstacles that move: in space and time, over the whole time of the motion, by their courses;
+/// one whose course is unknown may be anywhere that its greatest speed allows. Only the first of several movers of one
+/// obstacle counts.
+pub fn verify_among<A: Arm>(
+    scene: &Scene<A>,
+    movers: &[Mover],
+    motion: &Motion,
+    settings: &VerifySettings,
+    keep_going: &dyn Fn() -> bool,
+) -> Verdict {
     let mut violations = Vec::new();
     let joints = scene.arm.joints();
     if motion.joints() != joints.len() {
@@ -95,7 +110,8 @@ pub fn verify_until<A: Arm>(
     let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
     let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
     let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
-    let least_clearance = sweep::check(scene, &pieces, &passed_jumps, settings, keep_going, &mut violations);
+    let least_clearance =
+        sweep::check((scene, movers), &pieces, &passed_jumps, settings, keep_going, &mut violations);
     violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
     Verdict {
         violations,

@@ -1,14 +1,14 @@
 //! All links against all that they must not touch, over all of a motion: bisection in time with bounds on the motion.
 
-use smallvec::SmallVec;
-
 use super::bernstein::Bernstein;
-use super::clearance::{Axis, Body};
-use super::verdict::{Against, Clearance, Violation};
+use super::clearance::Body;
+use super::moving::Way;
+use super::pairs::{Curves, Pair, Stretch, pairs};
+use super::verdict::{Clearance, Violation};
 use super::{FLOOR, VerifySettings};
 use crate::arm::Arm;
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::{Mover, Scene};
 use crate::trajectory::Piece;
 
 /// An interval over which a link moves by no more than this (m) is not halved again.
@@ -37,46 +37,10 @@ const LEAST_SOUNDINGS: usize = 4;
 /// Rounds of taking the better two thirds of a dip; each tells the place better by half.
 const THIRDS: u32 = 40;
 
-/// Directions over a stretch of time of the links that carry a link, and of the link itself, last (rad).
-type Curves = SmallVec<[Bernstein<6>; 2]>;
-
-/// One piece, for all links.
-struct Stretch {
-    start: f64,
-    duration: f64,
-    /// For each link that others are seen from, the directions of those after it; first those of all links, as seen
-    /// from the base.
-    directions: Vec<Vec<Bernstein<6>>>,
-}
-
-impl Stretch {
-    fn new(piece: &Piece, self_collision: bool) -> Self {
-        let joints: Vec<Bernstein<6>> =
-            piece.coefficients.iter().map(|terms| Bernstein::derivative(terms, 0, piece.duration)).collect();
-        let summed = |first: usize| {
-            let mut sums = vec![joints[first]];
-            for joint in &joints[first + 1..] {
-                sums.push(sums[sums.len() - 1].plus(joint));
-            }
-            sums
-        };
-        let seen_from = if self_collision { joints.len() } else { 1 };
-        Self {
-            start: piece.start,
-            duration: piece.duration,
-            directions: (0..seen_from).map(summed).collect(),
-        }
-    }
-
-    fn time(&self, fraction: f64) -> f64 {
-        self.start + self.duration * fraction
-    }
-}
-
 /// Reports contacts and what stays undecided; gives the least clearance of all. A jump between pieces, which
 /// passed as rounding, must not carry a link through what stays of the clearance: its way is kept on top.
 pub(super) fn check<A: Arm>(
-    scene: &Scene<A>,
+    (scene, movers): (&Scene<A>, &[Mover]),
     pieces: &[&Piece],
     passed_jumps: &[f64],
     settings: &VerifySettings,
@@ -93,7 +57,11 @@ pub(super) fn check<A: Arm>(
         false => Vec::new(),
     };
     let links: Vec<Body> = lines.iter().map(Body::segment).collect();
-    let pairs = pairs(arm, &bodies, &links, passed_jumps);
+    let way = |obstacle| movers.iter().find(|mover| mover.obstacle() == obstacle).map(Way::new);
+    let ways: Vec<Option<Way>> = (0..bodies.len()).map(way).collect();
+    let ends = stretches.first().zip(stretches.last());
+    let times = ends.map_or([0.0; 2], |(first, last)| [first.time(0.0), last.time(1.0)]);
+    let pairs = pairs(arm, &bodies, &ways, &links, passed_jumps, times);
     // Not `max`, which would turn a margin that is not a number into one that is.
     let margin = if settings.margin <= FLOOR { FLOOR } else { settings.margin };
     let mut judge = Judge {
@@ -126,102 +94,6 @@ pub(super) fn check<A: Arm>(
         at_least: decided.then_some(judge.proved.min(nearest.distance)),
         ..nearest
     })
-}
-
-/// Every link with every obstacle and, where `links` are given, with every link before it that is no neighbour: that
-/// one stands still where it is looked from, and the links between them are the carriers.
-fn pairs<'a>(
-    arm: &'a impl Arm,
-    obstacles: &'a [Body<'a>],
-    links: &'a [Body<'a>],
-    passed_jumps: &[f64],
-) -> Vec<Pair<'a>> {
-    let lengths = arm.lengths();
-    let base = [arm.base().x, arm.base().y];
-    let half_width = arm.half_width();
-    let reach = base[0].abs() + base[1].abs() + lengths.iter().sum::<f64>() + half_width;
-    let carried = (0..lengths.len()).map(|j| lengths[j..].iter().sum::<f64>() * passed_jumps[j]);
-    let jumps: f64 = carried.sum();
-    let mut pairs = Vec::with_capacity((obstacles.len() + links.len()) * lengths.len());
-    for (obstacle, body) in obstacles.iter().enumerate() {
-        for link in 0..lengths.len() {
-            pairs.push(Pair {
-                body,
-                link,
-                against: Against::Obstacle(obstacle),
-                base,
-                first: 0,
-                lengths: &lengths[..=link],
-                half_width,
-                rounding: body.rounding(reach) + jumps,
-            });
-        }
-    }
-    for (other, body) in links.iter().enumerate() {
-        for link in other + 2..lengths.len() {
-            pairs.push(Pair {
-                body,
-                link,
-                against: Against::Link(other + 1),
-                base: [lengths[other], 0.0],
-                first: other + 1,
-                lengths: &lengths[other + 1..=link],
-                half_width: 2.0 * half_width,
-                rounding: body.rounding(reach) + jumps,
-            });
-        }
-    }
-    pairs
-}
-
-/// A link and what it must not touch.
-#[derive(Clone, Copy)]
-struct Pair<'a> {
-    body: &'a Body<'a>,
-    link: usize,
-    against: Against,
-    /// Where the carriers begin.
-    base: [f64; 2],
-    /// The joint that turns the first carrier.
-    first: usize,
-    /// Of the carriers and, last, of the link (m).
-    lengths: &'a [f64],
-    half_width: f64,
-    /// How far a clearance may be off (m).
-    rounding: f64,
-}
-
-impl Pair<'_> {
-    fn length(&self) -> f64 {
-        self.lengths[self.lengths.len() - 1]
-    }
-
-    /// The link's centre line, with carriers and link in these directions (rad).
-    fn axis(&self, mut directions: impl Iterator<Item = f64>) -> Axis {
-        let mut start = self.base;
-        for length in &self.lengths[..self.lengths.len() - 1] {
-            let (sin, cos) = libm::sincos(directions.next().unwrap_or(f64::NAN));
-            start = [start[0] + length * cos, start[1] + length * sin];
-        }
-        let (sin, cos) = libm::sincos(directions.next().unwrap_or(f64::NAN));
-        Axis { start, along: [cos, sin], length: self.length() }
-    }
-
-    fn clearance(&self, axis: &Axis) -> f64 {
-        self.body.distance(axis) - self.half_width
-    }
-
-    fn curves<'a>(&self, stretch: &'a Stretch) -> &'a [Bernstein<6>] {
-        &stretch.directions[self.first][..self.lengths.len()]
-    }
-
-    fn axis_at(&self, stretch: &Stretch, fraction: f64) -> Axis {
-        self.axis(self.curves(stretch).iter().map(|curve| curve.value(fraction)))
-    }
-
-    fn clearance_at(&self, stretch: &Stretch, fraction: f64) -> f64 {
-        self.clearance(&self.axis_at(stretch, fraction))
-    }
 }
 
 /// What is known of one pair over one piece.
@@ -288,23 +160,26 @@ impl Judge<'_> {
         let width = 0.5 * width;
         let middle = from + width;
         let at_middle = |k: usize| second[k].coefficients[0];
-        let axis = pair.axis((0..curves.len()).map(at_middle));
+        let (time, times) = (stretch.time(middle), [from, from + 2.0 * width].map(|at| stretch.time(at)));
+        let axis = pair.axis(time, (0..curves.len()).map(at_middle));
 
         let deviation = |k: usize| curves[k].deviation(at_middle(k));
         let carriers = pair.lengths[..curves.len() - 1].iter().enumerate();
         let carried: f64 = carriers.map(|(k, length)| length * deviation(k)).sum();
         let turn = deviation(curves.len() - 1);
         let enough = self.enough(progress);
-        let lost = carried + pair.rounding + pair.half_width;
+        let (drift, [doubt, most_doubt]) = pair.spread(times, time);
+        let lost = carried + drift + most_doubt + pair.rounding + pair.half_width;
         let hull = pair.body.distance_of_hull(&axis, turn) - lost;
         if hull > enough {
             self.proved = self.proved.min(hull);
             return None;
         }
-        let clearance = pair.clearance(&axis);
-        self.consider(pair, clearance, stretch.time(middle));
+        let clearance = pair.clearance(&axis, time);
+        self.consider(pair, clearance, time);
         let touches = !is_above(clearance, self.margin);
-        let still = depth == DEEPEST || carried + pair.length() * turn <= STILL;
+        let still =
+            depth == DEEPEST || carried + drift + (most_doubt - doubt) + pair.length() * turn <= STILL;
         if touches && still {
             return Some(middle);
         }
@@ -353,9 +228,10 @@ impl Judge<'_> {
     /// Looks at a configuration unless the disc around the other is too far away to matter.
     fn glance(&mut self, pair: &Pair, stretch: &Stretch, fraction: f64) {
         let axis = pair.axis_at(stretch, fraction);
+        let time = stretch.time(fraction);
         let hull = pair.body.distance_of_hull(&axis, 0.0) - pair.half_width;
         if self.nearest.is_none_or(|nearest| hull < nearest.distance) {
-            self.consider(pair, pair.clearance(&axis), stretch.time(fraction));
+            self.consider(pair, pair.clearance(&axis, time), time);
         }
     }
 

@@ -6,7 +6,7 @@ use super::Location;
 use crate::arm::{ArmError, MOST_LINKS};
 use crate::geometry::{CircleError, PolygonError};
 use crate::grid::GridError;
-use crate::scene::SceneProblem;
+use crate::scene::{MoverError, SceneProblem};
 
 /// Why a text is no scene: what is wrong, and where.
 #[derive(Debug, Clone, PartialEq)]
@@ -164,6 +164,9 @@ pub enum Problem {
         /// Which are there.
         found: &'static str,
     },
+    /// How an obstacle moves.
+    #[error(transparent)]
+    Mover(#[from] MoverError),
     /// The measures of the arm.
     #[error(transparent)]
     Arm(#[from] ArmError),

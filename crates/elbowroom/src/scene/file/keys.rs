@@ -20,7 +20,22 @@ pub(super) const ARM: Keys =
 pub(super) const JOINT: Keys =
     Keys { required: &[], optional: &["continuous", "min", "max", "velocity", "acceleration", "jerk"] };
 pub(super) const GRID: Keys = Keys { required: &["x", "y", "step"], optional: &[] };
-pub(super) const OBSTACLE: Keys = Keys { required: &[], optional: &["circle", "polygon", "name"] };
+pub(super) const OBSTACLE: Keys = Keys {
+    required: &[],
+    optional: &[
+        "circle",
+        "polygon",
+        "name",
+        "motion",
+        "greatest_speed",
+        "seen",
+        "seen_from",
+        "sensing_radius",
+    ],
+};
+pub(super) const MOTION: Keys =
+    Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases"] };
+pub(super) const WAYPOINT: Keys = Keys { required: &["time", "shift"], optional: &[] };
 pub(super) const CIRCLE: Keys = Keys { required: &["center", "radius"], optional: &[] };
 pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };
 pub(super) const PLACE: Keys = Keys { required: &["q"], optional: &[] };
@@ -44,6 +59,8 @@ mod tests {
             ("/$defs/grid", GRID),
             ("/$defs/obstacle", OBSTACLE),
             ("/$defs/circle", CIRCLE),
+            ("/$defs/motion", MOTION),
+            ("/$defs/waypoint", WAYPOINT),
             ("/$defs/task", TASK),
             ("/$defs/configuration", PLACE),
         ] {

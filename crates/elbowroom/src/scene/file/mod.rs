@@ -7,6 +7,7 @@ mod arm;
 mod error;
 mod grid;
 mod keys;
+mod mover;
 mod node;
 mod obstacles;
 mod tasks;
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 
 pub use error::{Problem, SceneError};
 
-use super::Scene;
+use super::{Mover, Scene};
 use crate::arm::{Arm, PlanarArm};
 use units::Units;
 use value::{Fault, Value};
@@ -58,6 +59,8 @@ impl Locations {
 pub struct SceneFile {
     /// The scene.
     pub scene: Scene<PlanarArm>,
+    /// Those of its obstacles that move.
+    pub movers: Vec<Mover>,
     /// Where its tasks are.
     pub locations: Locations,
 }
@@ -96,14 +99,14 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
     let units = Units::read(&map.required("units")?)?;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;
-    let obstacles = match map.optional("obstacles") {
+    let (obstacles, movers) = match map.optional("obstacles") {
         Some(value) => obstacles::read(&value, units)?,
-        None => Vec::new(),
+        None => Default::default(),
     };
     let (tasks, ends) = match map.optional("tasks") {
         Some(value) => tasks::read(&value, units, arm.lengths().len())?,
         None => Default::default(),
     };
     let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;
-    Ok(SceneFile { scene, locations: Locations { ends } })
+    Ok(SceneFile { scene, movers, locations: Locations { ends } })
 }

@@ -2,19 +2,32 @@ use std::collections::HashSet;
 
 use super::error::Problem;
 use super::keys;
+use super::mover;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::geometry::{Circle, Point, Polygon, PolygonError};
 use crate::scene::problem::MOST_OBSTACLES;
-use crate::scene::{Obstacle, SceneProblem, Shape};
+use crate::scene::{Mover, Obstacle, SceneProblem, Shape};
 
-pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Vec<Obstacle>, Fault> {
+/// The obstacles, and those of them that move.
+pub(super) fn read(value: &Value<'_>, units: Units) -> Result<(Vec<Obstacle>, Vec<Mover>), Fault> {
     let values = value.list("a list of obstacles")?;
     if values.len() > MOST_OBSTACLES {
         return Err(value.fault(SceneProblem::Obstacles { found: values.len() }.into()));
     }
     let mut names = HashSet::new();
-    values.iter().map(|value| obstacle(value, units, &mut names)).collect()
+    let mut movers = Vec::new();
+    let obstacles = values
+        .iter()
+        .enumerate()
+        .map(|(index, value)| {
+            let map = value.map(&keys::OBSTACLE)?;
+            let read = obstacle(value, units, &mut names)?;
+            movers.extend(mover::read(index, &map, units)?);
+            Ok(read)
+        })
+        .collect::<Result<Vec<Obstacle>, Fault>>()?;
+    Ok((obstacles, movers))
 }
 
 fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>) -> Result<Obstacle, Fault> {

@@ -1,0 +1,218 @@
+use thiserror::Error;
+
+use crate::geometry::Vector;
+
+/// The most way-points of one mover.
+pub const MOST_WAYPOINTS: usize = 10_000;
+
+/// Latest time and greatest speed and shift that are served (s, m/s, m): beyond them numbers lose the digits the
+/// checks rely on.
+const GREATEST: f64 = 1e6;
+
+/// An obstacle of a scene that moves, without turning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mover {
+    obstacle: usize,
+    course: Course,
+    sight: Sight,
+    greatest_speed: f64,
+}
+
+/// Where a mover is, as a shift from where the scene has it (m).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Course {
+    /// Straight from way-point to way-point; still before the first and after the last.
+    Waypoints(Vec<Waypoint>),
+    /// Still until `start`, then on and on at one velocity.
+    Drift {
+        /// When it begins to move (s).
+        start: f64,
+        /// In m/s.
+        velocity: Vector,
+    },
+    /// Towards the arm's tip, wherever it goes, at the greatest speed; nobody knows beforehand where that is.
+    Chase,
+    /// Nobody knows: from where it was seen it may have gone anywhere at its greatest speed.
+    Unknown {
+        /// When it was seen (s).
+        seen: f64,
+        /// Where (m).
+        shift: Vector,
+    },
+}
+
+/// A place on a course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Waypoint {
+    /// When (s).
+    pub time: f64,
+    /// Where, as a shift from where the scene has the obstacle (m).
+    pub shift: Vector,
+}
+
+/// Since when the arm knows of a mover and its course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Sight {
+    /// From the beginning.
+    Always,
+    /// From this time on (s).
+    From(f64),
+    /// While it is no farther from the arm than this (m).
+    Within(f64),
+}
+
+/// Why there is no such mover.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum MoverError {
+    /// No way-point, or more than are served.
+    #[error("{found} way-points, 1 to {MOST_WAYPOINTS} are allowed")]
+    Waypoints {
+        /// How many.
+        found: usize,
+    },
+    /// A way-point is not after the one before it.
+    #[error("way-point {index} is at {time} s, which is not after the {before} s of the one before")]
+    Times {
+        /// Which, from 0.
+        index: usize,
+        /// Its time (s).
+        time: f64,
+        /// The time before (s).
+        before: f64,
+    },
+    /// A number is not finite, too large, or negative where it must not be.
+    #[error("{what} is {value}, it must be finite{}, at most {GREATEST} in size", if *positive { ", not negative" } else { "" })]
+    Number {
+        /// Of what.
+        what: &'static str,
+        /// What was given.
+        value: f64,
+        /// Whether it must not be negative.
+        positive: bool,
+    },
+    /// The course is faster than the greatest speed declared.
+    #[error("the course goes at {found} m/s, the greatest speed declared is {declared} m/s")]
+    TooFast {
+        /// Of the course (m/s).
+        found: f64,
+        /// What was declared (m/s).
+        declared: f64,
+    },
+}
+
+impl Mover {
+    /// The `obstacle` of a scene, from 0, on its `course`; `greatest_speed` (m/s) is that of the course where none is
+    /// declared, and has to be for a course that is unknown.
+    ///
+    /// # Errors
+    /// [`MoverError`] names the first thing that is wrong.
+    pub fn new(
+        obstacle: usize,
+        course: Course,
+        sight: Sight,
+        greatest_speed: Option<f64>,
+    ) -> Result<Self, MoverError> {
+        course.check()?;
+        match sight {
+            Sight::Always => {}
+            Sight::From(time) => number("time of sight", time, false)?,
+            Sight::Within(radius) => number("radius of sight", radius, true)?,
+        }
+        let found = course.greatest_speed();
+        let declared = greatest_speed.unwrap_or(found);
+        number("greatest speed", declared, true)?;
+        if found > declared * (1.0 + 1e-9) {
+            return Err(MoverError::TooFast { found, declared });
+        }
+        Ok(Self { obstacle, course, sight, greatest_speed: declared })
+    }
+
+    /// Its place among the scene's obstacles, from 0.
+    pub fn obstacle(&self) -> usize {
+        self.obstacle
+    }
+
+    /// Where it is, when.
+    pub fn course(&self) -> &Course {
+        &self.course
+    }
+
+    /// Since when the arm knows of it.
+    pub fn sight(&self) -> Sight {
+        self.sight
+    }
+
+    /// It is never faster (m/s).
+    pub fn greatest_speed(&self) -> f64 {
+        self.greatest_speed
+    }
+}
+
+impl Course {
+    /// How far the obstacle is from where the scene has it at `time` (s) (m); of an unknown course, where it was seen
+    /// or, to chase, began.
+    pub fn shift_at(&self, time: f64) -> Vector {
+        match self {
+            Self::Waypoints(waypoints) => {
+                let after = waypoints.partition_point(|waypoint| waypoint.time <= time);
+                match (after.checked_sub(1).map(|i| waypoints[i]), waypoints.get(after)) {
+                    (Some(a), Some(b)) => {
+                        let fraction = (time - a.time) / (b.time - a.time);
+                        a.shift + (b.shift + -a.shift) * fraction
+                    }
+                    (Some(only), None) => only.shift,
+                    (None, first) => first.map_or(Vector::new(0.0, 0.0), |first| first.shift),
+                }
+            }
+            Self::Drift { start, velocity } => *velocity * (time - start).max(0.0),
+            Self::Chase => Vector::new(0.0, 0.0),
+            Self::Unknown { shift, .. } => *shift,
+        }
+    }
+
+    /// The fastest that the course is (m/s); 0 where it is unknown.
+    pub fn greatest_speed(&self) -> f64 {
+        match self {
+            Self::Waypoints(waypoints) => waypoints
+                .windows(2)
+                .map(|pair| (pair[1].shift + -pair[0].shift).length() / (pair[1].time - pair[0].time))
+                .fold(0.0, f64::max),
+            Self::Drift { velocity, .. } => velocity.length(),
+            Self::Chase | Self::Unknown { .. } => 0.0,
+        }
+    }
+
+    fn check(&self) -> Result<(), MoverError> {
+        let vector = |what, v: Vector| number(what, v.x, false).and_then(|()| number(what, v.y, false));
+        match self {
+            Self::Waypoints(waypoints) => {
+                if !(1..=MOST_WAYPOINTS).contains(&waypoints.len()) {
+                    return Err(MoverError::Waypoints { found: waypoints.len() });
+                }
+                for waypoint in waypoints {
+                    number("time of a way-point", waypoint.time, false)?;
+                    vector("shift of a way-point", waypoint.shift)?;
+                }
+                let late = (1..waypoints.len()).find(|&i| waypoints[i].time <= waypoints[i - 1].time);
+                late.map_or(Ok(()), |index| {
+                    let (time, before) = (waypoints[index].time, waypoints[index - 1].time);
+                    Err(MoverError::Times { index, time, before })
+                })
+            }
+            Self::Drift { start, velocity } => {
+                number("start", *start, false).and(vector("velocity", *velocity))
+            }
+            Self::Chase => Ok(()),
+            Self::Unknown { seen, shift } => number("time", *seen, false).and(vector("shift", *shift)),
+        }
+    }
+}
+
+fn number(what: &'static str, value: f64, positive: bool) -> Result<(), MoverError> {
+    let least = if positive { 0.0 } else { -GREATEST };
+    if (least..=GREATEST).contains(&value) {
+        Ok(())
+    } else {
+        Err(MoverError::Number { what, value, positive })
+    }
+}
