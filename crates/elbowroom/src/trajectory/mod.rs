@@ -1,5 +1,7 @@
 //! Motion over time: polynomial pieces per joint.
 
+mod brake;
+mod departure;
 mod interpolate;
 mod length;
 mod motion;
@@ -9,6 +11,8 @@ mod spline;
 mod timing;
 mod via;
 
+pub use brake::brake;
+pub use departure::departing;
 pub use interpolate::{Curve, MAX_ROWS, Samples, SamplesError, interpolate};
 pub use motion::{Motion, MotionError};
 pub use piece::{Piece, State};

@@ -111,6 +111,34 @@ impl Motion {
         self.end() - self.start()
     }
 
+    /// What is left of the motion from time `t` (s) on; `None` if that is its end or later.
+    #[must_use]
+    pub fn after(&self, t: f64) -> Option<Self> {
+        let index = self.pieces.partition_point(|piece| piece.start + piece.duration <= t);
+        let first = self.pieces.get(index)?;
+        let mut pieces = vec![first.after((t - first.start).max(0.0))];
+        pieces.extend(self.pieces[index + 1..].iter().cloned());
+        Some(Self { pieces })
+    }
+
+    /// The motion up to time `t` (s); `None` if that is its start or earlier.
+    #[must_use]
+    pub fn before(&self, t: f64) -> Option<Self> {
+        let mut pieces: Vec<Piece> = self.pieces.iter().filter(|piece| piece.start < t).cloned().collect();
+        let last = pieces.last_mut()?;
+        last.duration = last.duration.min(t - last.start);
+        Some(Self { pieces })
+    }
+
+    /// This motion and then `next`, which begins where and when it ends.
+    ///
+    /// # Errors
+    /// [`MotionError`] where times or joints do not join.
+    pub fn then(mut self, next: Self) -> Result<Self, MotionError> {
+        self.pieces.extend(next.pieces);
+        Self::new(self.pieces)
+    }
+
     /// The joints at time `t` (s); before the start and after the end, those of the nearer end.
     pub fn at(&self, t: f64) -> State {
         let index = self.pieces.partition_point(|piece| piece.start <= t).saturating_sub(1);

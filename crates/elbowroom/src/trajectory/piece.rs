@@ -67,6 +67,26 @@ impl Piece {
         Self { start, duration, coefficients }
     }
 
+    /// What is left of the piece from `s` seconds after its start on: the same polynomials about another point.
+    #[must_use]
+    pub fn after(&self, s: f64) -> Self {
+        let shifted = |terms: &[f64; 6]| {
+            // Horner's scheme again and again: each round leaves the next coefficient in its place.
+            let mut terms = *terms;
+            for done in 0..5 {
+                for k in (done..5).rev() {
+                    terms[k] += terms[k + 1] * s;
+                }
+            }
+            terms
+        };
+        Self {
+            start: self.start + s,
+            duration: self.duration - s,
+            coefficients: self.coefficients.iter().map(shifted).collect(),
+        }
+    }
+
     /// The joints at `s` seconds after the piece's start.
     pub fn at(&self, s: f64) -> State {
         let derivative =

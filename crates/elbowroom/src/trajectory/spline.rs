@@ -1,5 +1,5 @@
-use super::Piece;
 use super::piece::quintic;
+use super::{Piece, State};
 use crate::arm::joint_distance;
 
 /// Configurations nearer than this are one via (rad): a piece between them would last no time.
@@ -76,6 +76,16 @@ pub fn quintic_through(vias: &[Via], durations: &[f64]) -> Vec<Piece> {
 /// The polynomial of joint `j` in piece `i` of [`quintic_through`].
 pub(super) fn joint_between(vias: &[Via], durations: &[f64], i: usize, j: usize) -> [f64; 6] {
     quintic(passing(vias, durations, i, j), passing(vias, durations, i + 1, j), durations[i])
+}
+
+/// [`joint_between`] for an arm that is at the first via as `state` says, instead of at rest.
+pub(super) fn joint_from(state: &State, vias: &[Via], durations: &[f64], i: usize, j: usize) -> [f64; 6] {
+    let from = if i == 0 {
+        [state.position[j], state.velocity[j], state.acceleration[j]]
+    } else {
+        passing(vias, durations, i, j)
+    };
+    quintic(from, passing(vias, durations, i + 1, j), durations[i])
 }
 
 /// Position, velocity and acceleration of joint `j` at via `i`.

@@ -103,7 +103,8 @@ fn stretches(vias: &[Via], durations: &[f64], limits: &[SpeedLimits]) -> Vec<f64
     (0..durations.len()).map(|i| (0..limits.len()).map(|j| of_joint(i, j)).fold(0.0, f64::max)).collect()
 }
 
-fn joint_stretch(position: &[f64; 6], duration: f64, limit: &SpeedLimits) -> f64 {
+/// By what factor one joint must be slowed down to keep within `limit`.
+pub(super) fn joint_stretch(position: &[f64; 6], duration: f64, limit: &SpeedLimits) -> f64 {
     let [speed, push, jolt] = peaks(position, duration);
     let (speed, push, jolt) = (speed / limit.velocity, push / limit.acceleration, jolt / limit.jerk);
     speed.max(push.sqrt()).max(libm::cbrt(jolt))
