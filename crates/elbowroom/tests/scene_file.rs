@@ -356,17 +356,20 @@ fn obstacles_that_move_are_read_with_their_units() {
     let drift = Course::Drift { start: 1.5, velocity: shift(0.0, 0.2) };
     let late = "motion: {velocity: [0, 20], start: 1.5}, seen: false, seen_from: 3, greatest_speed: 25";
     assert_eq!(movers(late), [Mover::new(0, drift, Sight::From(3.0), Some(0.25)).unwrap()]);
-    let near = "motion: {chases: tip}, greatest_speed: 5, seen: false, sensing_radius: 30";
-    assert_eq!(movers(near), [Mover::new(0, Course::Chase, Sight::Within(0.3), Some(0.05)).unwrap()]);
+    let near = "motion: {chases: tip, keep_off: 2}, greatest_speed: 5, seen: false, sensing_radius: 30";
+    assert_eq!(
+        movers(near),
+        [Mover::new(0, Course::Chase { keep_off: 0.02 }, Sight::Within(0.3), Some(0.05)).unwrap()]
+    );
     assert!(parse(SOUND, "s.yaml").unwrap().movers.is_empty());
     for (extra, wrong) in [
         (
             "motion: {}",
-            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases",
+            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases (with or without keep_off)",
         ),
         (
             "motion: {velocity: [1, 0], chases: tip}",
-            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases",
+            "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases (with or without keep_off)",
         ),
         ("motion: {waypoints: []}", "motion: 0 way-points, 1 to 10000 are allowed"),
         ("motion: {chases: tip}", "motion: missing: greatest_speed, beside chases"),

@@ -221,7 +221,7 @@ fn clearance(scene: &Scene<PlanarArm>, movers: &[Mover], motion: &Motion, time: 
                     let first = [points[0].shift.x, points[0].shift.y];
                     points.windows(2).map(along).fold(first, |sum, step| [sum[0] + step[0], sum[1] + step[1]])
                 }
-                Course::Unknown { .. } | Course::Chase => panic!("not drawn here"),
+                Course::Unknown { .. } | Course::Chase { .. } | Course::Absent => panic!("not drawn here"),
             }
         });
         for pair in points.windows(2) {

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Point, Segment};
+use super::{Point, Segment, Vector};
 
 /// The most vertices one polygon may have: its check for crossings takes quadratic time.
 pub const MAX_VERTICES: usize = 10_000;
@@ -54,6 +54,12 @@ impl Polygon {
             Some((first, second)) => Err(PolygonError::EdgesMeet { first, second }),
             None => Ok(polygon),
         }
+    }
+
+    /// The same polygon moved by so much; rounding is taken not to let edges meet.
+    #[must_use]
+    pub fn shifted(&self, by: Vector) -> Self {
+        Self { vertices: self.vertices.iter().map(|vertex| *vertex + by).collect() }
     }
 
     /// The corners in the order given.

@@ -24,7 +24,9 @@ mod union_graph;
 
 pub use by_name::{NameError, OptionValue};
 pub use candidates::NEARLY_EQUAL;
+pub(crate) use candidates::certified_path;
 pub use interface::plan;
+pub(crate) use limits::motion_limits;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};

@@ -30,8 +30,14 @@ pub enum Course {
         /// In m/s.
         velocity: Vector,
     },
-    /// Towards the arm's tip, wherever it goes, at the greatest speed; nobody knows beforehand where that is.
-    Chase,
+    /// Towards the arm's tip, wherever it goes, at the greatest speed, but no nearer to any link than `keep_off` (m);
+    /// nobody knows beforehand where that is.
+    Chase {
+        /// Distance at which it stops (m).
+        keep_off: f64,
+    },
+    /// Not there, as far as anyone knows.
+    Absent,
     /// Nobody knows: from where it was seen it may have gone anywhere at its greatest speed.
     Unknown {
         /// When it was seen (s).
@@ -127,6 +133,12 @@ impl Mover {
         Ok(Self { obstacle, course, sight, greatest_speed: declared })
     }
 
+    /// The same obstacle with the same greatest speed, but its course known otherwise.
+    #[must_use]
+    pub fn on(&self, course: Course) -> Self {
+        Self { course, ..self.clone() }
+    }
+
     /// Its place among the scene's obstacles, from 0.
     pub fn obstacle(&self) -> usize {
         self.obstacle
@@ -165,7 +177,7 @@ impl Course {
                 }
             }
             Self::Drift { start, velocity } => *velocity * (time - start).max(0.0),
-            Self::Chase => Vector::new(0.0, 0.0),
+            Self::Chase { .. } | Self::Absent => Vector::new(0.0, 0.0),
             Self::Unknown { shift, .. } => *shift,
         }
     }
@@ -178,7 +190,7 @@ impl Course {
                 .map(|pair| (pair[1].shift + -pair[0].shift).length() / (pair[1].time - pair[0].time))
                 .fold(0.0, f64::max),
             Self::Drift { velocity, .. } => velocity.length(),
-            Self::Chase | Self::Unknown { .. } => 0.0,
+            Self::Chase { .. } | Self::Absent | Self::Unknown { .. } => 0.0,
         }
     }
 
@@ -202,7 +214,8 @@ impl Course {
             Self::Drift { start, velocity } => {
                 number("start", *start, false).and(vector("velocity", *velocity))
             }
-            Self::Chase => Ok(()),
+            Self::Chase { keep_off } => number("distance to keep off", *keep_off, true),
+            Self::Absent => Ok(()),
             Self::Unknown { seen, shift } => number("time", *seen, false).and(vector("shift", *shift)),
         }
     }

@@ -85,6 +85,11 @@ impl Motion {
         Ok(Self { pieces })
     }
 
+    /// One piece alone, whose numbers are known to be sound.
+    pub(crate) fn of(piece: Piece) -> Self {
+        Self { pieces: vec![piece] }
+    }
+
     /// The pieces in order of time.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces

@@ -17,6 +17,11 @@ impl<'a> Way<'a> {
         Self { course: mover.course(), speed: mover.greatest_speed() }
     }
 
+    /// Whether there is anything to touch.
+    pub(super) fn is_there(&self) -> bool {
+        !matches!(self.course, Course::Absent)
+    }
+
     /// How far the obstacle is from where the scene has it at `time` (s) (m).
     pub(super) fn shift(&self, time: f64) -> [f64; 2] {
         match self.course {
@@ -37,7 +42,7 @@ impl<'a> Way<'a> {
                 let going = if time > *start { time - start } else { 0.0 };
                 [velocity.x * going, velocity.y * going]
             }
-            Course::Chase => [0.0; 2],
+            Course::Chase { .. } | Course::Absent => [0.0; 2],
             Course::Unknown { shift, .. } => [shift.x, shift.y],
         }
     }
@@ -45,9 +50,9 @@ impl<'a> Way<'a> {
     /// How far from there it may be at `time` (s) (m).
     pub(super) fn doubt(&self, time: f64) -> f64 {
         match self.course {
-            Course::Chase => self.speed * time.abs(),
+            Course::Chase { .. } => self.speed * time.abs(),
             Course::Unknown { seen, .. } => self.speed * (time - seen).abs(),
-            Course::Waypoints(_) | Course::Drift { .. } => 0.0,
+            Course::Waypoints(_) | Course::Drift { .. } | Course::Absent => 0.0,
         }
     }
 
@@ -63,7 +68,7 @@ impl<'a> Way<'a> {
                 .map(|point| off([point.shift.x, point.shift.y]))
                 .fold(0.0, f64::max),
             Course::Drift { start, .. } if from < *start && *start < to => off([0.0; 2]),
-            Course::Drift { .. } | Course::Chase | Course::Unknown { .. } => 0.0,
+            Course::Drift { .. } | Course::Chase { .. } | Course::Absent | Course::Unknown { .. } => 0.0,
         };
         ends.max(between)
     }

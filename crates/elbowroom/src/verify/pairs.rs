@@ -63,6 +63,9 @@ pub(super) fn pairs<'a>(
     let jumps: f64 = carried.sum();
     let mut pairs = Vec::with_capacity((obstacles.len() + links.len()) * lengths.len());
     for (obstacle, (body, &way)) in obstacles.iter().zip(ways).enumerate() {
+        if way.is_some_and(|way| !way.is_there()) {
+            continue;
+        }
         let (shift, moved) = way.map_or((0.0, 0.0), |way| (way.size(times), way.rounding(times)));
         for link in 0..lengths.len() {
             pairs.push(Pair {

@@ -34,7 +34,7 @@ pub(super) const OBSTACLE: Keys = Keys {
     ],
 };
 pub(super) const MOTION: Keys =
-    Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases"] };
+    Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases", "keep_off"] };
 pub(super) const WAYPOINT: Keys = Keys { required: &["time", "shift"], optional: &[] };
 pub(super) const CIRCLE: Keys = Keys { required: &["center", "radius"], optional: &[] };
 pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };

@@ -17,7 +17,7 @@ pub(super) fn read(obstacle: usize, map: &Map<'_>, units: Units) -> Result<Optio
     };
     let course = course(&motion, units)?;
     let declared = speed.as_ref().map(|speed| speed.length(units)).transpose()?;
-    if course == Course::Chase && declared.is_none() {
+    if matches!(course, Course::Chase { .. }) && declared.is_none() {
         return Err(motion.fault(Problem::MissingKey { key: "greatest_speed, beside chases" }));
     }
     Mover::new(obstacle, course, sight(map, units)?, declared).map(Some).map_err(|error| {
@@ -32,9 +32,9 @@ fn course(motion: &Value<'_>, units: Units) -> Result<Course, Fault> {
     let map = motion.map(&keys::MOTION)?;
     let shift = |value: &Value<'_>| value.point(units).map(|shift| Vector::new(shift.x, shift.y));
     let kinds = ["waypoints", "velocity", "chases"].map(|key| map.optional(key));
-    let start = map.optional("start");
-    match (kinds, start) {
-        ([Some(waypoints), None, None], None) => {
+    let (start, keep_off) = (map.optional("start"), map.optional("keep_off"));
+    match (kinds, start, keep_off) {
+        ([Some(waypoints), None, None], None, None) => {
             let waypoint = |value: &Value<'_>| {
                 let map = value.map(&keys::WAYPOINT)?;
                 Ok(Waypoint { time: map.required("time")?.number()?, shift: shift(&map.required("shift")?)? })
@@ -42,15 +42,17 @@ fn course(motion: &Value<'_>, units: Units) -> Result<Course, Fault> {
             let list = waypoints.list("a list of way-points {time, shift}")?;
             Ok(Course::Waypoints(list.iter().map(waypoint).collect::<Result<Vec<Waypoint>, Fault>>()?))
         }
-        ([None, Some(velocity), None], start) => Ok(Course::Drift {
+        ([None, Some(velocity), None], start, None) => Ok(Course::Drift {
             start: start.map_or(Ok(0.0), |start| start.number())?,
             velocity: shift(&velocity)?,
         }),
-        ([None, None, Some(chases)], None) => {
+        ([None, None, Some(chases)], None, keep_off) => {
             chases.word(&["tip"])?;
-            Ok(Course::Chase)
+            let keep_off = keep_off.map_or(Ok(0.0), |distance| distance.length(units))?;
+            Ok(Course::Chase { keep_off })
         }
-        _ => Err(motion.shape("one of waypoints, velocity (with or without start), chases")),
+        _ => Err(motion
+            .shape("one of waypoints, velocity (with or without start), chases (with or without keep_off)")),
     }
 }
 
