@@ -1,11 +1,16 @@
 //! Planners and their options by name, as the command line and Python ask for them: the one list of them.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
 use thiserror::Error;
 
 use super::settings::Planner;
-use crate::swarm::GuidedSwarmSettings;
+use super::{CbpsoSettings, Initialisation, NscPsoSettings, PsoSettings};
+use crate::swarm::{GuidedSwarmSettings, Neighbourhood};
+
+/// The most candidates that a planner may be told to judge.
+const MOST_EVALUATIONS: usize = 1_000_000_000;
 
 /// The value of an option.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +72,14 @@ fn listed(known: &[&'static str]) -> String {
 impl Planner {
     /// Every planner with its default options.
     pub fn all() -> Vec<Self> {
-        vec![Self::DstarPso(GuidedSwarmSettings::default()), Self::Dstar, Self::Optimal]
+        vec![
+            Self::DstarPso(GuidedSwarmSettings::default()),
+            Self::Dstar,
+            Self::Optimal,
+            Self::Pso(PsoSettings::default()),
+            Self::Cbpso(CbpsoSettings::default()),
+            Self::NscPso(NscPsoSettings::default()),
+        ]
     }
 
     /// The planner called `name`, with these options in place of its defaults.
@@ -87,9 +99,34 @@ impl Planner {
 
     /// Its options and their values.
     pub fn options(&self) -> Vec<(&'static str, OptionValue)> {
+        let count = |count: usize| OptionValue::Count(count);
+        let word = |word: &str| OptionValue::Word(word.to_owned());
         match self {
             Self::Dstar | Self::Optimal => Vec::new(),
-            Self::DstarPso(swarm) => vec![("candidates", OptionValue::Count(swarm.candidates))],
+            Self::DstarPso(own) => vec![("candidates", count(own.candidates))],
+            Self::Pso(own) => vec![
+                ("vias", count(own.vias)),
+                (
+                    "neighbourhood",
+                    word(match own.neighbourhood {
+                        Neighbourhood::Global => "global",
+                        Neighbourhood::Ring { .. } => "ring",
+                    }),
+                ),
+                ("evaluations", count(own.evaluations)),
+            ],
+            Self::Cbpso(own) => vec![("vias", count(own.vias)), ("evaluations", count(own.evaluations))],
+            Self::NscPso(own) => vec![
+                ("waypoints", count(own.waypoints)),
+                (
+                    "initialisation",
+                    word(match own.initialisation {
+                        Initialisation::StepCost => "step-cost",
+                        Initialisation::Uniform => "uniform",
+                    }),
+                ),
+                ("evaluations", count(own.evaluations)),
+            ],
         }
     }
 
@@ -98,21 +135,50 @@ impl Planner {
         match self {
             Self::Dstar | Self::Optimal => None,
             Self::DstarPso(_) => Some("candidates"),
+            Self::Pso(_) | Self::Cbpso(_) | Self::NscPso(_) => Some("evaluations"),
         }
     }
 
     fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), NameError> {
         let planner = self.name();
         let known: Vec<&'static str> = self.options().into_iter().map(|(name, _)| name).collect();
-        match (self, option, value) {
-            (Self::DstarPso(swarm), "candidates", OptionValue::Count(count)) => swarm.candidates = *count,
-            (_, option, value) => {
-                let Some(option) = known.iter().find(|name| **name == option) else {
-                    return Err(NameError::Option { planner, option: option.to_owned(), known });
+        let Some(option) = known.iter().copied().find(|name| *name == option) else {
+            return Err(NameError::Option { planner, option: option.to_owned(), known });
+        };
+        let refused =
+            |allowed: &'static str| NameError::Value { planner, option, value: value.clone(), allowed };
+        let count = |range: RangeInclusive<usize>, allowed: &'static str| match value {
+            OptionValue::Count(count) if range.contains(count) => Ok(*count),
+            _ => Err(refused(allowed)),
+        };
+        let word = |words: [&str; 2], allowed: &'static str| match value {
+            OptionValue::Word(found) if found == words[0] => Ok(true),
+            OptionValue::Word(found) if found == words[1] => Ok(false),
+            _ => Err(refused(allowed)),
+        };
+        let evaluations = || count(1..=MOST_EVALUATIONS, "a whole number from 1 to 1000000000");
+        let few = || count(1..=64, "a whole number from 1 to 64");
+        match (self, option) {
+            (Self::DstarPso(own), _) => own.candidates = count(0..=usize::MAX, "a whole number")?,
+            (Self::Pso(own), "vias") => own.vias = few()?,
+            (Self::Pso(own), "neighbourhood") => {
+                own.neighbourhood = match word(["global", "ring"], "global or ring")? {
+                    true => Neighbourhood::Global,
+                    false => Neighbourhood::Ring { k: 2 },
                 };
-                let allowed = "a whole number";
-                return Err(NameError::Value { planner, option, value: value.clone(), allowed });
             }
+            (Self::Pso(own), _) => own.evaluations = evaluations()?,
+            (Self::Cbpso(own), "vias") => own.vias = few()?,
+            (Self::Cbpso(own), _) => own.evaluations = evaluations()?,
+            (Self::NscPso(own), "waypoints") => own.waypoints = few()?,
+            (Self::NscPso(own), "initialisation") => {
+                own.initialisation = match word(["step-cost", "uniform"], "step-cost or uniform")? {
+                    true => Initialisation::StepCost,
+                    false => Initialisation::Uniform,
+                };
+            }
+            (Self::NscPso(own), _) => own.evaluations = evaluations()?,
+            (Self::Dstar | Self::Optimal, _) => {}
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! The one way into all planners.
 
 use super::settings::{Pace, PlanSettings, Planner};
-use super::{Monitor, Plan, PlanError, posture_true};
+use super::{Monitor, Plan, PlanError, posture_true, swarms};
 use crate::arm::Arm;
 use crate::scene::{Scene, Task};
 
@@ -23,6 +23,9 @@ pub fn plan<A: Arm>(
             let scene = scene.two_link().ok_or(PlanError::OtherArm { planner, links })?;
             posture_true::plan(&scene, task, settings, monitor)
         }
+        Planner::Pso(own) => swarms::pso(&scene.planar(), task, settings, &own, monitor),
+        Planner::Cbpso(own) => swarms::cbpso(&scene.planar(), task, settings, &own, monitor),
+        Planner::NscPso(own) => swarms::nsc_pso(&scene.planar(), task, settings, &own, monitor),
     }
 }
 

@@ -3,6 +3,7 @@
 mod bound;
 mod by_name;
 mod candidates;
+mod chain;
 mod chart;
 mod choose;
 mod ends;
@@ -20,6 +21,7 @@ mod pull;
 mod settings;
 mod sheets;
 mod smooth;
+mod swarms;
 mod union_graph;
 
 pub use by_name::{NameError, OptionValue};
@@ -32,3 +34,4 @@ pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
 pub use plan::{Effort, NoPath, Plan, PlanError};
 pub use settings::{Objective, Pace, PlanSettings, Planner};
+pub use swarms::{CbpsoSettings, Initialisation, NscPsoSettings, PsoSettings};

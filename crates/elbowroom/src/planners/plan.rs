@@ -6,7 +6,7 @@ use crate::free_space::NotFree;
 use crate::geometry::Point;
 use crate::path::{JointPath, TipPath};
 use crate::search::GoalError;
-use crate::swarm::GuidedSwarmError;
+use crate::swarm::{BoundsError, CulturalError, GuidedSwarmError, SwarmError};
 use crate::trajectory::MotionError;
 use crate::verify::{Trajectory, Verdict};
 
@@ -77,6 +77,15 @@ pub enum PlanError {
     /// A setting of the swarm makes no sense.
     #[error(transparent)]
     Swarm(#[from] GuidedSwarmError),
+    /// Settings of a swarm over vias or way-points make no sense.
+    #[error(transparent)]
+    Particles(SwarmError),
+    /// The same of one with a culture.
+    #[error(transparent)]
+    Culture(CulturalError),
+    /// There is nothing for a swarm to search.
+    #[error(transparent)]
+    Bounds(BoundsError),
     /// The motion shall take no time, or a time that is no number.
     #[error("duration is {duration} s, it must be finite and greater than 0")]
     Duration {

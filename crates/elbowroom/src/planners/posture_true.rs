@@ -54,7 +54,7 @@ pub(crate) fn plan(
     }
     match settings.planner {
         Planner::Optimal => work.optimal(),
-        Planner::Dstar | Planner::DstarPso(_) => work.over_grid(),
+        _ => work.over_grid(),
     }
 }
 

@@ -1,3 +1,4 @@
+use super::swarms::{CbpsoSettings, NscPsoSettings, PsoSettings};
 use crate::swarm::GuidedSwarmSettings;
 
 /// How a path is found.
@@ -9,6 +10,12 @@ pub enum Planner {
     DstarPso(GuidedSwarmSettings),
     /// Taut paths that leave the grid.
     Optimal,
+    /// A plain particle swarm over via points.
+    Pso(PsoSettings),
+    /// A cultural swarm over quartic and quintic pieces.
+    Cbpso(CbpsoSettings),
+    /// A swarm over way-points that begins where the straight way is bad.
+    NscPso(NscPsoSettings),
 }
 
 impl Planner {
@@ -18,6 +25,9 @@ impl Planner {
             Self::Dstar => "dstar",
             Self::DstarPso(_) => "dstar-pso",
             Self::Optimal => "optimal",
+            Self::Pso(_) => "pso",
+            Self::Cbpso(_) => "cbpso",
+            Self::NscPso(_) => "nsc-pso",
         }
     }
 }

@@ -86,7 +86,7 @@ impl<V: Value> Swarm<V> {
         Ok(swarm)
     }
 
-    /// A swarm whose first particles stand at `positions`, clamped to the box, and the others anywhere in it.
+    /// A swarm whose first particles stand still at `positions`, clamped to the box, and the others fly anywhere in it.
     ///
     /// # Errors
     /// [`SwarmError`] if a setting makes no sense, there are more positions than particles, or one has another number of
@@ -108,6 +108,8 @@ impl<V: Value> Swarm<V> {
         for (at, (d, x)) in swarm.positions.iter_mut().zip(coordinates) {
             *at = clamped(x, bounds.min()[d], bounds.max()[d]);
         }
+        let given = positions.len() * dimensions;
+        swarm.velocities[..given].fill(0.0);
         swarm.personal_bests = swarm.positions.clone();
         Ok(swarm)
     }

@@ -27,7 +27,7 @@ pub struct State {
 
 /// The quintic, the constant first, from position, velocity and acceleration to position, velocity and acceleration over
 /// a duration (s): the solution of eqs (12) to (21) of the paper, with time counted from the start.
-pub(super) fn quintic([q0, v0, a0]: [f64; 3], [q1, v1, a1]: [f64; 3], duration: f64) -> [f64; 6] {
+pub(crate) fn quintic([q0, v0, a0]: [f64; 3], [q1, v1, a1]: [f64; 3], duration: f64) -> [f64; 6] {
     let t = duration;
     let h = q1 - q0;
     // Divided by t step by step: t⁵ would underflow long before t does.

@@ -1,0 +1,254 @@
+//! A cultural swarm over motions of quartic and quintic pieces, in the style of CBPSO.
+
+use rand_chacha::ChaCha8Rng;
+use rand_core::{Rng, SeedableRng};
+
+use super::super::ends::Ends;
+use super::super::finish::with_motion;
+use super::super::settings::{Objective, Pace, PlanSettings};
+use super::super::{Monitor, Plan, PlanError, Stage};
+use super::choice::Choice;
+use super::hunt::{Hunt, Patience};
+use super::polyline::around_straight;
+use super::track::Track;
+use crate::arm::PlanarArm;
+use crate::path::JointPath;
+use crate::scene::{Scene, Task, TaskPosture};
+use crate::swarm::{CulturalSettings, CulturalSwarm, Fitness, SwarmSettings};
+use crate::trajectory::{Motion, Piece, SpeedLimits, TICK, quartic, quintic, stretch};
+use crate::verify::{Trajectory, VerifySettings};
+
+/// How a cultural swarm looks for a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CbpsoSettings {
+    /// How many configurations the motion is led through.
+    pub vias: usize,
+    /// How many candidates may be judged.
+    pub evaluations: usize,
+}
+
+impl Default for CbpsoSettings {
+    fn default() -> Self {
+        Self { vias: 2, evaluations: 20_000 }
+    }
+}
+
+/// Iterations over which a swarm's inertia falls.
+const ITERATIONS: usize = 250;
+
+/// Durations of pieces before they are scaled to the motion limits (s): only their ratios count.
+const DURATIONS: [f64; 2] = [0.3, 3.0];
+
+/// Velocity at a via point, as a share of what the joint may do before scaling.
+const FASTEST: f64 = 1.0;
+
+/// Looks at one piece.
+const LOOKS: usize = 24;
+
+/// Rounds of lengthening a motion whose pieces were rounded to whole ticks.
+const ROUNDS: usize = 6;
+
+/// Plans by a cultural swarm whose particles are via configurations, the velocities there, and durations: all pieces but
+/// the last are polynomials of degree four, the last is a quintic, and acceleration is continuous throughout.
+///
+/// The motion is scaled to be as fast as the motion limits allow, or to the duration asked for, and goes before the
+/// verifier as it is.
+///
+/// # Reference
+/// CBPSO-style: Guo et al., cited by the paper as [6], of whom only the cultural swarm over quartic and quintic pieces in
+/// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
+pub(in super::super) fn plan(
+    scene: &Scene<PlanarArm>,
+    task: &Task,
+    settings: &PlanSettings,
+    own: &CbpsoSettings,
+    monitor: &impl Monitor,
+) -> Result<Plan, PlanError> {
+    let ends = Ends::new(scene, task, settings.seed, monitor)?;
+    monitor.stage(Stage::JointPath);
+    let choice = Choice::new(&scene.arm, &ends);
+    let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
+    let shape = Shape { choice: &choice, vias: own.vias, limits: track.limits(), pace: settings.pace };
+    let mut hunt = Hunt::new(own.evaluations, monitor);
+    let bounds = choice.bounds(own.vias, &shape.rates()).map_err(PlanError::Bounds)?;
+    let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
+    let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
+    let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+    while !hunt.is_over() {
+        let first: Vec<Vec<f64>> = around_straight(&choice, own.vias, cultural.swarm.particles / 2, &mut rng)
+            .into_iter()
+            .map(|position| shape.with_even_rates(&position))
+            .collect();
+        let mut swarm = CulturalSwarm::<Fitness>::starting_at(&bounds, &cultural, &first, rng.next_u64())
+            .map_err(PlanError::Culture)?;
+        let mut patience = Patience::new();
+        while !hunt.is_over() && patience.lasts(swarm.best().1) {
+            swarm.step(&mut |x: &[f64]| {
+                let Some(motion) = shape.motion(x) else {
+                    return hunt.judge(|| f64::MAX, || 0.0, || None);
+                };
+                let looks = looks(&motion);
+                hunt.judge(
+                    || violation(&track, &motion, &looks),
+                    || cost(scene, settings.objective, &motion, &looks),
+                    || is_safe(scene, &motion, monitor).then(|| (motion.clone(), shape.places(x))),
+                )
+            });
+        }
+    }
+    let ((motion, places), effort) = hunt.end()?;
+    with_motion(scene, motion, JointPath(places), settings, effort, monitor)
+}
+
+/// What a particle's coordinates stand for: via configurations, velocities there, durations, and the choice of ends.
+struct Shape<'a> {
+    choice: &'a Choice,
+    vias: usize,
+    limits: &'a [SpeedLimits],
+    pace: Pace,
+}
+
+impl Shape<'_> {
+    /// Ranges of velocities and durations.
+    fn rates(&self) -> Vec<[f64; 2]> {
+        let velocities = (0..self.vias).flat_map(|_| self.limits.iter());
+        let velocities = velocities.map(|limit| [-FASTEST * limit.velocity, FASTEST * limit.velocity]);
+        velocities.chain((0..=self.vias).map(|_| DURATIONS)).collect()
+    }
+
+    /// A position of via configurations and choice with even durations, and velocities as on the straight way.
+    fn with_even_rates(&self, position: &[f64]) -> Vec<f64> {
+        let joints = self.limits.len();
+        let (choice, vias) = position.split_last().unwrap_or((&0.0, &[]));
+        let [start, goal] = self.choice.pair(*choice);
+        let duration = 1.0;
+        let at = |k: usize, j: usize| match k {
+            0 => start[j],
+            k if k > self.vias => goal[j],
+            k => vias[(k - 1) * joints + j],
+        };
+        let mut all = vias.to_vec();
+        for k in 1..=self.vias {
+            for (j, limit) in self.limits.iter().enumerate() {
+                let slope = (at(k + 1, j) - at(k - 1, j)) / (2.0 * duration);
+                all.push(slope.clamp(-FASTEST * limit.velocity, FASTEST * limit.velocity));
+            }
+        }
+        all.extend((0..=self.vias).map(|_| duration));
+        all.push(*choice);
+        all
+    }
+
+    fn places(&self, x: &[f64]) -> Vec<Vec<f64>> {
+        let joints = self.limits.len();
+        let [start, goal] = self.choice.pair(x[x.len() - 1]);
+        let mut places = vec![start.clone()];
+        places.extend(x[..self.vias * joints].chunks_exact(joints).map(<[f64]>::to_vec));
+        places.push(goal.clone());
+        places
+    }
+
+    /// The motion of a particle at the pace asked for, on whole ticks; `None` where numbers overflow or no scaling keeps
+    /// the limits.
+    fn motion(&self, x: &[f64]) -> Option<Motion> {
+        let joints = self.limits.len();
+        let places = self.places(x);
+        let (velocities, durations) = x[self.vias * joints..x.len() - 1].split_at(self.vias * joints);
+        let asked = match self.pace {
+            Pace::Fastest => None,
+            Pace::Duration(duration) => Some(duration),
+        };
+        let slow_down =
+            |pieces: &[Piece]| pieces.iter().map(|piece| stretch(piece, self.limits)).fold(0.0, f64::max);
+        let even = self.pieces(&places, velocities, durations, 1.0);
+        let mut factor = match asked {
+            None => slow_down(&even),
+            Some(duration) => duration / durations.iter().sum::<f64>(),
+        };
+        for _ in 0..ROUNDS {
+            let total: f64 = durations.iter().sum::<f64>() * factor;
+            let scaled = on_ticks(durations, factor, asked.is_some().then_some(total));
+            let pieces = self.pieces(&places, velocities, &scaled, factor);
+            let needed = slow_down(&pieces);
+            if needed <= 1.0 {
+                return Motion::new(pieces).ok();
+            }
+            if asked.is_some() || !needed.is_finite() {
+                return None;
+            }
+            factor *= needed * (1.0 + 1e-6) + 1e-4;
+        }
+        None
+    }
+
+    /// Pieces of these durations (s), with velocities slowed down by `factor`.
+    fn pieces(&self, places: &[Vec<f64>], velocities: &[f64], durations: &[f64], factor: f64) -> Vec<Piece> {
+        let joints = self.limits.len();
+        let mut now = vec![[0.0; 2]; joints];
+        let mut start = 0.0;
+        (0..=self.vias)
+            .map(|k| {
+                let duration = durations[k];
+                let coefficients = (0..joints)
+                    .map(|j| {
+                        let from = [places[k][j], now[j][0], now[j][1]];
+                        let to = places[k + 1][j];
+                        if k == self.vias {
+                            return quintic(from, [to, 0.0, 0.0], duration);
+                        }
+                        let velocity = velocities[k * joints + j] / factor;
+                        let (terms, acceleration) = quartic(from, [to, velocity], duration);
+                        now[j] = [velocity, acceleration];
+                        terms
+                    })
+                    .collect();
+                let piece = Piece { start, duration, coefficients };
+                start += duration;
+                piece
+            })
+            .collect()
+    }
+}
+
+/// Durations times `factor`, each a whole number of ticks but, where a `total` (s) is asked for, the last.
+fn on_ticks(durations: &[f64], factor: f64, total: Option<f64>) -> Vec<f64> {
+    let mut rounded: Vec<f64> =
+        durations.iter().map(|duration| (duration * factor / TICK).ceil().max(1.0) * TICK).collect();
+    if let (Some(total), Some(last)) = (total, durations.len().checked_sub(1)) {
+        let before: f64 = rounded[..last].iter().sum();
+        rounded[last] = (total - before).max(TICK * factor.min(1.0) * 1e-3);
+    }
+    rounded
+}
+
+/// Configurations at even instants of each piece.
+fn looks(motion: &Motion) -> Vec<Vec<f64>> {
+    let first = motion.at(motion.start()).position;
+    let rest = motion
+        .pieces()
+        .iter()
+        .flat_map(|piece| (1..=LOOKS).map(|i| piece.at(piece.duration * i as f64 / LOOKS as f64).position));
+    std::iter::once(first).chain(rest).collect()
+}
+
+fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
+    let start = motion.at(motion.start()).position;
+    looks.windows(2).map(|pair| track.at(&pair[1], &start) * (track.way(&pair[0], &pair[1]) + 1e-6)).sum()
+}
+
+fn cost(scene: &Scene<PlanarArm>, objective: Objective, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
+    use crate::arm::{Arm, joint_distance};
+    match objective {
+        Objective::Tip => {
+            let tips: Vec<_> = looks.iter().map(|q| scene.arm.tip_at(q)).collect();
+            tips.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+        }
+        Objective::Joint => looks.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
+        Objective::Time => motion.duration(),
+    }
+}
+
+fn is_safe(scene: &Scene<PlanarArm>, motion: &Motion, monitor: &impl Monitor) -> bool {
+    let keep_going = || monitor.keep_going();
+    Trajectory::certify_until(scene, motion.clone(), &VerifySettings::default(), &keep_going).is_ok()
+}

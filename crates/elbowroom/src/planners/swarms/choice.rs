@@ -1,0 +1,58 @@
+//! Which start and which goal a particle stands for, and the box it may fly in.
+
+use super::super::ends::{Ends, nearest_turn};
+use crate::arm::{Arm, JointLimits, PlanarArm};
+use crate::swarm::{Bounds, BoundsError};
+
+/// How far beyond start and goal a continuous joint may go (rad).
+const BEYOND: f64 = std::f64::consts::PI;
+
+/// Pairs of a start and a goal; a particle's last coordinate, in [0, 1], says which.
+pub(super) struct Choice {
+    pairs: Vec<[Vec<f64>; 2]>,
+    ranges: Vec<[f64; 2]>,
+}
+
+impl Choice {
+    pub(super) fn new(arm: &PlanarArm, ends: &Ends) -> Self {
+        let goals_of = |start: &Vec<f64>| -> Vec<[Vec<f64>; 2]> {
+            ends.goals.iter().map(|goal| [start.clone(), nearest_turn(arm, start, goal)]).collect()
+        };
+        let pairs: Vec<[Vec<f64>; 2]> = ends.starts.iter().flat_map(goals_of).collect();
+        let range = |(j, limits): (usize, JointLimits)| match limits {
+            JointLimits::Range { min, max } => [min, max],
+            JointLimits::Continuous => {
+                let places = || pairs.iter().flatten().map(|q| q[j]);
+                [
+                    places().fold(f64::INFINITY, f64::min) - BEYOND,
+                    places().fold(f64::NEG_INFINITY, f64::max) + BEYOND,
+                ]
+            }
+        };
+        let ranges = arm.joints().iter().map(|joint| joint.limits).enumerate().map(range).collect();
+        Self { pairs, ranges }
+    }
+
+    /// Where each joint may go (rad).
+    pub(super) fn ranges(&self) -> &[[f64; 2]] {
+        &self.ranges
+    }
+
+    /// Start and goal that `coordinate` stands for.
+    pub(super) fn pair(&self, coordinate: f64) -> &[Vec<f64>; 2] {
+        let index = (coordinate * self.pairs.len() as f64) as usize;
+        &self.pairs[index.min(self.pairs.len() - 1)]
+    }
+
+    /// The coordinate of each pair.
+    pub(super) fn coordinates(&self) -> impl Iterator<Item = f64> + Clone {
+        let count = self.pairs.len();
+        (0..count).map(move |i| (i as f64 + 0.5) / count as f64)
+    }
+
+    /// The box of `places` configurations, then of `more` ranges, then of the choice.
+    pub(super) fn bounds(&self, places: usize, more: &[[f64; 2]]) -> Result<Bounds, BoundsError> {
+        let joints = (0..places).flat_map(|_| self.ranges.iter().copied());
+        Bounds::new(&joints.chain(more.iter().copied()).chain([[0.0, 1.0]]).collect::<Vec<_>>())
+    }
+}

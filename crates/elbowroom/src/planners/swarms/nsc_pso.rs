@@ -1,0 +1,237 @@
+//! A swarm over way-points whose first particles are shaken where the straight way is bad, in the style of NSC-PSO.
+
+use rand_chacha::ChaCha8Rng;
+use rand_core::{Rng, SeedableRng};
+
+use super::super::ends::Ends;
+use super::super::finish::along;
+use super::super::settings::PlanSettings;
+use super::super::{Monitor, Plan, PlanError, Stage};
+use super::choice::Choice;
+use super::hunt::{Hunt, Patience};
+use super::polyline::{certified, places, unit};
+use super::track::Track;
+use crate::arm::PlanarArm;
+use crate::path::JointPath;
+use crate::scene::{Scene, Task, TaskPosture};
+use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
+
+/// Where the first particles are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Initialisation {
+    /// On the straight way, shaken where its normalised step cost is great.
+    StepCost,
+    /// Anywhere: the ablation.
+    Uniform,
+}
+
+/// How a swarm looks for way-points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NscPsoSettings {
+    /// How many configurations lie between start and goal.
+    pub waypoints: usize,
+    /// Where the first particles are.
+    pub initialisation: Initialisation,
+    /// How many candidates may be judged.
+    pub evaluations: usize,
+}
+
+impl Default for NscPsoSettings {
+    fn default() -> Self {
+        Self { waypoints: 12, initialisation: Initialisation::StepCost, evaluations: 40_000 }
+    }
+}
+
+/// Iterations over which a swarm's inertia falls.
+const ITERATIONS: usize = 200;
+
+/// Greatest shake of a way-point (rad): each particle has its own share of it.
+const SHAKE: f64 = 7.0;
+
+/// Part of the shaking that does not heed the step cost, so that a way that is free all along is varied too.
+const LEAST_SHAKE: f64 = 0.05;
+
+/// Plans by a swarm whose particles are `settings.waypoints` configurations, joined by straight turns.
+///
+/// A step's cost is how deep in contact the arm is there times the way of its points; divided by the greatest it tells how
+/// much noise a way-point starts with. The noise is smooth: it has the covariance (AᵀA)⁻¹ of STOMP, with A the matrix of
+/// second differences, and the same matrix smooths the velocities of all particles.
+///
+/// # Reference
+/// NSC-PSO-style: Kim and Lee, cited by the paper as [8], whose formula of the normalised step cost is not known; the
+/// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
+pub(in super::super) fn plan(
+    scene: &Scene<PlanarArm>,
+    task: &Task,
+    settings: &PlanSettings,
+    own: &NscPsoSettings,
+    monitor: &impl Monitor,
+) -> Result<Plan, PlanError> {
+    let ends = Ends::new(scene, task, settings.seed, monitor)?;
+    monitor.stage(Stage::JointPath);
+    let choice = Choice::new(&scene.arm, &ends);
+    let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
+    let mut hunt: Hunt<'_, _, Vec<Vec<f64>>> = Hunt::new(own.evaluations, monitor);
+    let bounds = choice.bounds(own.waypoints, &[]).map_err(PlanError::Bounds)?;
+    let swarm_settings = SwarmSettings {
+        iterations: ITERATIONS,
+        neighbourhood: Neighbourhood::Ring { k: 2 },
+        ..SwarmSettings::default()
+    };
+    let smoothing = Smoothing::new(own.waypoints);
+    let joints = choice.ranges().len();
+    let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+    while !hunt.is_over() {
+        let first = match own.initialisation {
+            Initialisation::StepCost => {
+                shaken(&choice, &track, own.waypoints, swarm_settings.particles, &mut rng)
+            }
+            Initialisation::Uniform => Vec::new(),
+        };
+        let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
+            .map_err(PlanError::Particles)?;
+        let mut patience = Patience::new();
+        while !hunt.is_over() && patience.lasts(swarm.best().1) {
+            let mut objective = |x: &[f64]| {
+                let places = places(x, &choice);
+                hunt.judge(
+                    || track.violation(&places),
+                    || track.cost(&places),
+                    || certified(scene, places.clone()),
+                )
+            };
+            swarm.step_shaped(&mut objective, &mut |velocity: &mut [f64]| smoothing.smooth(velocity, joints));
+        }
+    }
+    let (places, effort) = hunt.end()?;
+    along(scene, JointPath(places), settings, effort, monitor)
+}
+
+/// Particles on straight ways, shaken where these are in contact.
+pub(in super::super) fn shaken(
+    choice: &Choice,
+    track: &Track<'_>,
+    waypoints: usize,
+    count: usize,
+    rng: &mut ChaCha8Rng,
+) -> Vec<Vec<f64>> {
+    let joints = choice.ranges().len();
+    let mut chosen = choice.coordinates().cycle();
+    (0..count)
+        .map(|i| {
+            let coordinate = chosen.next().unwrap_or(0.0);
+            let [start, goal] = choice.pair(coordinate);
+            let at = |k: usize| -> Vec<f64> {
+                let share = k as f64 / (waypoints + 1) as f64;
+                start.iter().zip(goal).map(|(a, b)| a + (b - a) * share).collect()
+            };
+            let costs = normalised(&(1..=waypoints).map(|k| track.at(&at(k), start)).collect::<Vec<_>>());
+            let shake = SHAKE * i as f64 / count as f64;
+            let noise: Vec<Vec<f64>> = (0..joints).map(|_| smooth_noise(waypoints, rng)).collect();
+            let mut position = Vec::with_capacity(waypoints * joints + 1);
+            for k in 0..waypoints {
+                let straight = at(k + 1);
+                let share = LEAST_SHAKE + (1.0 - LEAST_SHAKE) * costs[k];
+                position.extend((0..joints).map(|j| straight[j] + shake * share * noise[j][k]));
+            }
+            position.push(coordinate);
+            position
+        })
+        .collect()
+}
+
+/// From 0, the least, to 1, the greatest; all 0 where they are alike.
+fn normalised(costs: &[f64]) -> Vec<f64> {
+    let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = costs.iter().copied().fold(0.0, f64::max);
+    let width = if most > least { most - least } else { f64::INFINITY };
+    costs.iter().map(|cost| (cost - least) / width).collect()
+}
+
+/// Noise of covariance (AᵀA)⁻¹, scaled to lie within -1 and 1: A⁻¹ times even noise.
+fn smooth_noise(count: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    let noise = solved((0..count).map(|_| 2.0 * unit(rng) - 1.0).collect());
+    let most = noise.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    noise.into_iter().map(|x| if most > 0.0 { x / most } else { 0.0 }).collect()
+}
+
+/// The solution x of A x = `right`, with 2 on the diagonal of A and -1 beside it: Thomas' algorithm.
+fn solved(mut right: Vec<f64>) -> Vec<f64> {
+    let count = right.len();
+    let mut above = vec![0.0; count];
+    let (mut before_above, mut before) = (0.0, 0.0);
+    for i in 0..count {
+        let pivot = 2.0 + before_above;
+        above[i] = -1.0 / pivot;
+        right[i] = (right[i] + before) / pivot;
+        (before_above, before) = (above[i], right[i]);
+    }
+    for i in (0..count.saturating_sub(1)).rev() {
+        right[i] -= above[i] * right[i + 1];
+    }
+    right
+}
+
+/// (AᵀA)⁻¹, scaled so that its greatest row sums up to 1.
+struct Smoothing {
+    rows: Vec<Vec<f64>>,
+}
+
+impl Smoothing {
+    fn new(count: usize) -> Self {
+        let unit = |k: usize| (0..count).map(|i| f64::from(u8::from(i == k))).collect();
+        let mut rows: Vec<Vec<f64>> = (0..count).map(|k| solved(unit(k))).collect();
+        let most = rows.iter().map(|row| row.iter().sum::<f64>()).fold(f64::MIN_POSITIVE, f64::max);
+        rows.iter_mut().flatten().for_each(|x| *x /= most);
+        Self { rows }
+    }
+
+    /// Smooths what way-points after each other, of so many `joints` each, have in `velocity`; what comes after them stays.
+    fn smooth(&self, velocity: &mut [f64], joints: usize) {
+        for j in 0..joints {
+            let of_joint: Vec<f64> = (0..self.rows.len()).map(|k| velocity[k * joints + j]).collect();
+            for (k, row) in self.rows.iter().enumerate() {
+                velocity[k * joints + j] = row.iter().zip(&of_joint).map(|(m, v)| m * v).sum();
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Smoothing, normalised, solved};
+
+    #[test]
+    fn the_system_is_solved() {
+        for count in 1..20 {
+            let right: Vec<f64> = (0..count).map(|i| ((i * i) as f64).sin()).collect();
+            let x = solved(right.clone());
+            for i in 0..count {
+                let side = |k: Option<usize>| k.and_then(|k| x.get(k)).copied().unwrap_or(0.0);
+                let row = 2.0 * x[i] - side(i.checked_sub(1)) - side(Some(i + 1));
+                assert!((row - right[i]).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn smoothing_keeps_what_is_smooth_and_flattens_what_is_not() {
+        let smoothing = Smoothing::new(9);
+        let wave = |turns: f64| -> Vec<f64> {
+            (1..=9).flat_map(|k| [(std::f64::consts::PI * turns * f64::from(k) / 10.0).sin(), 0.0]).collect()
+        };
+        let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let share = |turns: f64| {
+            let (before, mut after) = (wave(turns), wave(turns));
+            smoothing.smooth(&mut after, 2);
+            size(&after) / size(&before)
+        };
+        assert!(share(1.0) > 0.7 && share(5.0) < 0.02, "{} {}", share(1.0), share(5.0));
+    }
+
+    #[test]
+    fn step_costs_go_from_0_to_1() {
+        assert_eq!(normalised(&[0.2, 0.6, 1.0]), [0.0, 0.49999999999999994, 1.0]);
+        assert_eq!(normalised(&[0.3; 3]), [0.0; 3]);
+    }
+}

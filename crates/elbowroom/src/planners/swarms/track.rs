@@ -1,0 +1,183 @@
+//! How long a polyline of configurations is, and how far from free.
+
+use super::super::limits::motion_limits;
+use super::super::settings::Objective;
+use crate::arm::{Arm, PlanarArm, joint_distance};
+use crate::geometry::{Point, Segment};
+use crate::scene::{Obstacle, Scene, Shape};
+use crate::trajectory::SpeedLimits;
+
+/// Distance between two looks at a turn, as a share of the reach, and the most looks at one.
+const LOOK_EVERY: f64 = 0.015;
+const MOST_LOOKS: usize = 64;
+
+/// Clearance that candidates are led to keep, as a share of the reach: what is looked at only here and there shall be
+/// certified.
+const KEPT: f64 = 2e-3;
+
+/// The measure of candidates. It orders them; what is handed out is certified.
+pub(super) struct Track<'a> {
+    pub(super) scene: &'a Scene<PlanarArm>,
+    objective: Objective,
+    limits: Vec<SpeedLimits>,
+    /// Clearance that counts as free (m).
+    kept: f64,
+    look_every: f64,
+    /// Around each obstacle a disc: centre and radius (m).
+    discs: Vec<(Point, f64)>,
+    /// Whether the second of two joints must not change its sign.
+    keeps_posture: bool,
+}
+
+impl<'a> Track<'a> {
+    pub(super) fn new(scene: &'a Scene<PlanarArm>, objective: Objective, keeps_posture: bool) -> Self {
+        let (limits, _) = motion_limits(&scene.arm);
+        let [_, reach] = scene.arm.reach();
+        let discs = scene.obstacles.iter().map(disc_around).collect();
+        let (kept, look_every) = (KEPT * reach, LOOK_EVERY * reach);
+        Self { scene, objective, limits, kept, look_every, discs, keeps_posture }
+    }
+
+    pub(super) fn limits(&self) -> &[SpeedLimits] {
+        &self.limits
+    }
+
+    /// What straight turns from place to place cost.
+    pub(super) fn cost(&self, places: &[Vec<f64>]) -> f64 {
+        let pairs = places.windows(2);
+        match self.objective {
+            Objective::Tip => pairs.map(|pair| self.tip_travel(&pair[0], &pair[1])).sum(),
+            Objective::Joint => pairs.map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
+            Objective::Time => pairs
+                .map(|pair| {
+                    let joints = pair[0].iter().zip(&pair[1]).zip(&self.limits);
+                    joints.map(|((a, b), limit)| (b - a).abs() / limit.velocity).fold(0.0, f64::max)
+                })
+                .sum(),
+        }
+    }
+
+    /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
+    /// points (m²); 0 where it keeps some clearance wherever it is looked at.
+    pub(super) fn violation(&self, places: &[Vec<f64>]) -> f64 {
+        places.windows(2).map(|pair| self.turn(&pair[0], &pair[1])).sum()
+    }
+
+    fn turn(&self, from: &[f64], to: &[f64]) -> f64 {
+        let looks = self.looks(from, to);
+        let step = (self.way(from, to) / looks as f64).max(self.look_every * 1e-3);
+        (1..=looks).map(|i| self.at(&between(from, to, i as f64 / looks as f64), from)).sum::<f64>() * step
+    }
+
+    /// Tip travel on a straight turn (m), by chords from look to look.
+    fn tip_travel(&self, from: &[f64], to: &[f64]) -> f64 {
+        let looks = self.looks(from, to);
+        let tip = |i: usize| self.scene.arm.tip_at(&between(from, to, i as f64 / looks as f64));
+        let mut last = tip(0);
+        (1..=looks)
+            .map(|i| {
+                let next = tip(i);
+                let chord = next.distance(last);
+                last = next;
+                chord
+            })
+            .sum()
+    }
+
+    fn looks(&self, from: &[f64], to: &[f64]) -> usize {
+        ((self.way(from, to) / self.look_every).ceil() as usize).clamp(1, MOST_LOOKS)
+    }
+
+    /// How far from free the arm is at `q` (m); the posture to be kept is that at `start`.
+    pub(super) fn at(&self, q: &[f64], start: &[f64]) -> f64 {
+        let beyond: f64 = self
+            .scene
+            .arm
+            .joints()
+            .iter()
+            .zip(q)
+            .map(|(joint, &q)| match joint.limits {
+                crate::arm::JointLimits::Range { min, max } => (min - q).max(q - max).max(0.0),
+                crate::arm::JointLimits::Continuous => 0.0,
+            })
+            .sum();
+        let flipped = match (self.keeps_posture, q, start) {
+            (true, [_, bend], [_, before]) if bend.sin() * before.sin() < 0.0 => bend.sin().abs(),
+            _ => 0.0,
+        };
+        let [_, reach] = self.scene.arm.reach();
+        self.contact(q) + (beyond + flipped) * reach
+    }
+
+    /// By how much links come nearer than is kept to what they must not touch, summed up (m); it grows with the depth of
+    /// every contact, so that there is always a way out.
+    fn contact(&self, q: &[f64]) -> f64 {
+        let arm = &self.scene.arm;
+        let links: Vec<Segment> = arm.link_segments(q).collect();
+        let needed = self.kept + arm.half_width();
+        let mut sum = 0.0;
+        for (obstacle, (center, radius)) in self.scene.obstacles.iter().zip(&self.discs) {
+            for link in &links {
+                if link.distance_to_point(*center) - radius < needed {
+                    sum += (needed - signed_distance(obstacle, *link)).max(0.0);
+                }
+            }
+        }
+        if arm.self_collision() {
+            let needed = self.kept + 2.0 * arm.half_width();
+            for (i, link) in links.iter().enumerate() {
+                for other in links.iter().skip(i + 2) {
+                    let distance = link.distance_to_segment(*other);
+                    // Links that cross are as deep as their nearest end is from coming out.
+                    let depth = if distance > 0.0 { 0.0 } else { nearest_end(*link, *other) };
+                    sum += (needed - distance).max(0.0) + depth;
+                }
+            }
+        }
+        sum
+    }
+
+    /// How far a point of the arm may move (m) while the joints turn evenly.
+    pub(super) fn way(&self, from: &[f64], to: &[f64]) -> f64 {
+        let mut turn = 0.0;
+        let links = self.scene.arm.lengths().iter().zip(from.iter().zip(to));
+        links
+            .map(|(length, (a, b))| {
+                turn += b - a;
+                length * f64::abs(turn)
+            })
+            .sum()
+    }
+}
+
+fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+    from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect()
+}
+
+/// From the obstacle to the link, negative by the depth (m).
+fn signed_distance(obstacle: &Obstacle, link: Segment) -> f64 {
+    let distance = obstacle.distance_to_segment(link);
+    if distance > 0.0 { distance } else { obstacle.signed_distance_to_segment(link) }
+}
+
+/// How far the nearest end of two links is from the other link (m).
+fn nearest_end(a: Segment, b: Segment) -> f64 {
+    let of =
+        |link: Segment, other: Segment| link.distance_to_point(other.a).min(link.distance_to_point(other.b));
+    of(a, b).min(of(b, a))
+}
+
+fn disc_around(obstacle: &Obstacle) -> (Point, f64) {
+    match &obstacle.shape {
+        Shape::Circle(circle) => (circle.center, circle.radius),
+        Shape::Polygon(polygon) => {
+            let corners = polygon.vertices();
+            let ends = |of: fn(&Point) -> f64| {
+                let values = || corners.iter().map(of);
+                (values().fold(f64::INFINITY, f64::min) + values().fold(f64::NEG_INFINITY, f64::max)) / 2.0
+            };
+            let center = Point::new(ends(|p| p.x), ends(|p| p.y));
+            (center, corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
+        }
+    }
+}
