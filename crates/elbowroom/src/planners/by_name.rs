@@ -4,6 +4,7 @@ use std::fmt;
 
 use thiserror::Error;
 
+use super::IkPsoSettings;
 use super::settings::Planner;
 use crate::swarm::GuidedSwarmSettings;
 
@@ -67,7 +68,12 @@ fn listed(known: &[&'static str]) -> String {
 impl Planner {
     /// Every planner with its default options.
     pub fn all() -> Vec<Self> {
-        vec![Self::DstarPso(GuidedSwarmSettings::default()), Self::Dstar, Self::Optimal]
+        vec![
+            Self::DstarPso(GuidedSwarmSettings::default()),
+            Self::Dstar,
+            Self::Optimal,
+            Self::IkPso(IkPsoSettings::default()),
+        ]
     }
 
     /// The planner called `name`, with these options in place of its defaults.
@@ -90,6 +96,7 @@ impl Planner {
         match self {
             Self::Dstar | Self::Optimal => Vec::new(),
             Self::DstarPso(swarm) => vec![("candidates", OptionValue::Count(swarm.candidates))],
+            Self::IkPso(settings) => vec![("evaluations", OptionValue::Count(settings.evaluations))],
         }
     }
 
@@ -98,6 +105,7 @@ impl Planner {
         match self {
             Self::Dstar | Self::Optimal => None,
             Self::DstarPso(_) => Some("candidates"),
+            Self::IkPso(_) => Some("evaluations"),
         }
     }
 
@@ -106,6 +114,9 @@ impl Planner {
         let known: Vec<&'static str> = self.options().into_iter().map(|(name, _)| name).collect();
         match (self, option, value) {
             (Self::DstarPso(swarm), "candidates", OptionValue::Count(count)) => swarm.candidates = *count,
+            (Self::IkPso(settings), "evaluations", OptionValue::Count(count)) => {
+                settings.evaluations = *count
+            }
             (_, option, value) => {
                 let Some(option) = known.iter().find(|name| **name == option) else {
                     return Err(NameError::Option { planner, option: option.to_owned(), known });

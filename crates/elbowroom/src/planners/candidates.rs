@@ -91,7 +91,6 @@ pub(crate) fn over_grid(
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
         match &settings.planner {
-            Planner::Dstar | Planner::Optimal => {}
             Planner::DstarPso(swarm) => {
                 let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
                 let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
@@ -108,6 +107,7 @@ pub(crate) fn over_grid(
                 let paths = paths.ok_or(PlanError::Stopped)?;
                 drawn.extend(paths.costs.into_iter().zip(paths.paths));
             }
+            _ => {}
         }
     }
 

@@ -3,10 +3,13 @@
 mod bound;
 mod by_name;
 mod candidates;
+mod chain;
 mod chart;
 mod choose;
+mod dstar_pso;
 mod ends;
 mod finish;
+mod ik_pso;
 mod interface;
 mod limits;
 mod monitor;
@@ -24,6 +27,8 @@ mod union_graph;
 
 pub use by_name::{NameError, OptionValue};
 pub use candidates::NEARLY_EQUAL;
+pub use chain::{InverseSwarmError, InverseSwarmSettings, Previous, SwarmInverse, inverse_by_swarm};
+pub use ik_pso::IkPsoSettings;
 pub use interface::plan;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};

@@ -1,3 +1,4 @@
+use super::IkPsoSettings;
 use crate::swarm::GuidedSwarmSettings;
 
 /// How a path is found.
@@ -5,10 +6,13 @@ use crate::swarm::GuidedSwarmSettings;
 pub enum Planner {
     /// D*'s back-pointers alone, over grid points and postures.
     Dstar,
-    /// The best of the paths that the modified lbest swarm draws there.
+    /// The best of the paths that the modified lbest swarm draws there; for arms of more than two links, of those that a swarm
+    /// follows along D*'s ways over the tip's workspace.
     DstarPso(GuidedSwarmSettings),
     /// Taut paths that leave the grid.
     Optimal,
+    /// Inverse kinematics by a swarm along a tip path, IK-PSO-style.
+    IkPso(IkPsoSettings),
 }
 
 impl Planner {
@@ -18,6 +22,7 @@ impl Planner {
             Self::Dstar => "dstar",
             Self::DstarPso(_) => "dstar-pso",
             Self::Optimal => "optimal",
+            Self::IkPso(_) => "ik-pso",
         }
     }
 }

@@ -1,0 +1,88 @@
+//! What a search has spent, and may spend.
+
+use crate::planners::{Effort, Monitor, PlanError};
+
+/// Evaluations between two looks at the monitor: a few milliseconds.
+const EVALUATIONS_PER_LOOK: usize = 200;
+
+/// Why a search ends before it has found.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::planners) enum Halt {
+    /// The budget is spent.
+    Spent,
+    /// Something that no further search mends.
+    Failed(PlanError),
+}
+
+impl From<PlanError> for Halt {
+    fn from(error: PlanError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+/// Counts evaluations, and asks the monitor every few of them.
+pub(in crate::planners) struct Ledger<'a, M> {
+    pub(in crate::planners) monitor: &'a M,
+    budget: usize,
+    made: usize,
+    looked_at: usize,
+    convergence: Vec<(usize, f64)>,
+}
+
+impl<'a, M: Monitor> Ledger<'a, M> {
+    pub(in crate::planners) fn new(budget: usize, monitor: &'a M) -> Self {
+        Self { monitor, budget, made: 0, looked_at: 0, convergence: Vec::new() }
+    }
+
+    /// How many evaluations were made.
+    pub(in crate::planners) fn made(&self) -> usize {
+        self.made
+    }
+
+    /// How many may still be made.
+    pub(in crate::planners) fn left(&self) -> usize {
+        self.budget - self.made
+    }
+
+    /// Enters `evaluations` that are about to be made.
+    ///
+    /// # Errors
+    /// [`Halt`] when there are not so many left, or the monitor says no; then none is entered.
+    pub(in crate::planners) fn spend(&mut self, evaluations: usize) -> Result<(), Halt> {
+        if evaluations > self.left() {
+            return Err(Halt::Spent);
+        }
+        if self.made + evaluations >= self.looked_at + EVALUATIONS_PER_LOOK {
+            self.looked_at = self.made + evaluations;
+            self.look()?;
+        }
+        self.made += evaluations;
+        Ok(())
+    }
+
+    /// Gives back what was entered and not made.
+    pub(in crate::planners) fn give_back(&mut self, evaluations: usize) {
+        self.made = self.made.saturating_sub(evaluations);
+        self.looked_at = self.looked_at.min(self.made);
+    }
+
+    /// Asks the monitor.
+    ///
+    /// # Errors
+    /// [`PlanError::Stopped`]
+    pub(in crate::planners) fn look(&self) -> Result<(), PlanError> {
+        if self.monitor.keep_going() { Ok(()) } else { Err(PlanError::Stopped) }
+    }
+
+    /// Enters a feasible candidate of `cost`.
+    pub(in crate::planners) fn found(&mut self, cost: f64) {
+        if self.convergence.last().is_none_or(|(_, known)| cost < *known) {
+            self.convergence.push((self.made, cost));
+        }
+    }
+
+    /// The account.
+    pub(in crate::planners) fn effort(self) -> Effort {
+        Effort { evaluations: self.made, convergence: self.convergence }
+    }
+}
