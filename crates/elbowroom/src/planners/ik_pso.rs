@@ -36,7 +36,7 @@ const BACK: usize = 3;
 const MOST_TROUBLES: usize = 150;
 
 /// Share of the budget after which it does, too.
-const SHARE: usize = 4;
+const SHARE: usize = 6;
 
 /// Least distance by the guide, in strides, at which the goal itself is tried.
 const NEAR: f64 = 2.0;
@@ -56,7 +56,7 @@ pub struct IkPsoSettings {
 
 impl Default for IkPsoSettings {
     fn default() -> Self {
-        Self { evaluations: 100_000 }
+        Self { evaluations: 200_000 }
     }
 }
 
@@ -201,7 +201,7 @@ impl Follower<'_> {
                 Some(places) => path.extend(places),
                 None => {
                     troubles += 1;
-                    self.guide.raise(ahead);
+                    self.guide.raise(ahead, 2 * steps);
                     path.truncate(path.len().saturating_sub(BACK * (1 + troubles % 3)).max(1));
                 }
             }

@@ -27,9 +27,6 @@ const RAISE: f64 = 4.0;
 /// Beyond this a cell is not made costlier.
 const COSTLIEST: f64 = 1e4;
 
-/// Rings of neighbours that are raised with a cell.
-const RAISED_RINGS: usize = 3;
-
 /// Cells where the tip alone would be free, and what a step costs there.
 #[derive(Debug, Clone)]
 struct TipCells {
@@ -145,14 +142,14 @@ impl Guide {
         self.cells.grid.point(cell)
     }
 
-    /// Makes `cell` and those around it costlier: the arm could not pass. D* is repaired when next asked.
-    pub(in crate::planners) fn raise(&mut self, cell: usize) {
+    /// Makes `cell` and so many rings around it costlier: the arm could not pass. D* is repaired when next asked.
+    pub(in crate::planners) fn raise(&mut self, cell: usize, rings: usize) {
         let grid = self.cells.grid;
         let (column, row) = grid.column_row(cell);
-        let columns = column.saturating_sub(RAISED_RINGS)..=(column + RAISED_RINGS).min(grid.columns() - 1);
+        let columns = column.saturating_sub(rings)..=(column + rings).min(grid.columns() - 1);
         let mut raised = Vec::new();
         for column in columns {
-            for row in row.saturating_sub(RAISED_RINGS)..=(row + RAISED_RINGS).min(grid.rows() - 1) {
+            for row in row.saturating_sub(rings)..=(row + rings).min(grid.rows() - 1) {
                 let at = grid.cell(column, row);
                 let weight = &mut self.cells.weight[at];
                 if *weight < COSTLIEST {

@@ -32,6 +32,9 @@ const TURN: f64 = 0.25;
 /// Least distance from the goals by the guide, in strides, at which the tip is led to the goal itself.
 const NEAR: f64 = 3.0;
 
+/// Rings of cells around one that could not be reached, which are made costlier with it.
+const RAISED: usize = 3;
+
 /// What each try from a configuration costs it in the queue, in strides.
 const TRIED: f64 = 2.0;
 
@@ -194,7 +197,7 @@ impl Tree {
             let tip = self.guide.point(target);
             found = leader.by_swarm(&from, &near, tip, RADIUS, SWARM)?;
             if found.is_none() {
-                self.guide.raise(target);
+                self.guide.raise(target, RAISED);
             }
         }
         self.push(leader, node)?;
