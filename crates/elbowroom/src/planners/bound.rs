@@ -1,12 +1,13 @@
 //! What no motion can cost less than, and tasks that no motion can do.
 
 use super::chart::{JointChart, Walls, sheet_ranges, tip_chart};
+use super::limits::{motion_limits, stated_limits};
 use super::problem::Problem;
-use super::settings::Objective;
-use super::{Monitor, NoPath, PlanError};
-use crate::arm::{Configuration, JointLimits};
+use super::settings::{Objective, Pace, PlanSettings};
+use super::{Monitor, NoPath, PlanError, Stage};
+use crate::arm::{Arm, Configuration, JointLimits};
 use crate::geometry::wrap_angle;
-use crate::scene::Scene;
+use crate::scene::{Scene, Task};
 use crate::surface::{Measure, SurfacePlace};
 use crate::trajectory::SpeedLimits;
 use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
@@ -24,6 +25,51 @@ pub(crate) enum Proved {
 
 /// How far inside the obstacles walls are tried, one after the other, as shares of what was asked.
 const TRIED: [f64; 3] = [1.0, 0.3, 3.0];
+
+/// How far inside the obstacles the walls of a first bound stand (rad): one that costs a millisecond or two.
+pub(crate) const COARSE_DISTANCE: f64 = 1e-2;
+
+/// The least that any motion costs in terms of the settings' objective, with walls at `distance` (rad), if any was proved.
+///
+/// # Errors
+/// [`PlanError::NoPath`], [`PlanError::Stopped`]
+pub(crate) fn least_cost(
+    scene: &Scene,
+    problem: &Problem,
+    settings: &PlanSettings,
+    distance: f64,
+    monitor: &impl Monitor,
+) -> Result<Option<f64>, PlanError> {
+    monitor.stage(Stage::Bound);
+    // A duration that was asked for heeds only the limits that the scene states.
+    let limits = match settings.pace {
+        Pace::Fastest => motion_limits(&scene.arm).0,
+        Pace::Duration(_) => stated_limits(&scene.arm),
+    };
+    match prove(scene, problem, settings.objective, &limits, distance, monitor)? {
+        Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
+        Proved::AtLeast(cost) => Ok(Some(cost)),
+        Proved::Nothing => Ok(None),
+    }
+}
+
+/// [`least_cost`] of a first bound for an arm of two links; `None` for any other.
+///
+/// # Errors
+/// [`PlanError`] for a task whose start or goal is not free, and as [`least_cost`]
+pub(crate) fn coarse_least_cost<A: Arm>(
+    scene: &Scene<A>,
+    task: &Task,
+    settings: &PlanSettings,
+    monitor: &impl Monitor,
+) -> Result<Option<f64>, PlanError> {
+    let Some(scene) = scene.two_link() else { return Ok(None) };
+    let problem = Problem::new(&scene, task)?;
+    if problem.already_there().is_some() {
+        return Ok(Some(0.0));
+    }
+    least_cost(&scene, &problem, settings, COARSE_DISTANCE, monitor)
+}
 
 /// What can be proved with walls about `distance` (rad) inside the obstacles.
 ///

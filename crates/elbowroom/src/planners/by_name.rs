@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use thiserror::Error;
 
 use super::settings::Planner;
-use super::{CbpsoSettings, Initialisation, NscPsoSettings, PsoSettings};
+use super::{CbpsoSettings, IkPsoSettings, Initialisation, NscPsoSettings, PsoSettings};
 use crate::swarm::{GuidedSwarmSettings, Neighbourhood};
 
 /// The most candidates that a planner may be told to judge.
@@ -79,6 +79,7 @@ impl Planner {
             Self::Pso(PsoSettings::default()),
             Self::Cbpso(CbpsoSettings::default()),
             Self::NscPso(NscPsoSettings::default()),
+            Self::IkPso(IkPsoSettings::default()),
         ]
     }
 
@@ -127,6 +128,7 @@ impl Planner {
                 ),
                 ("evaluations", count(own.evaluations)),
             ],
+            Self::IkPso(own) => vec![("evaluations", count(own.evaluations))],
         }
     }
 
@@ -135,7 +137,7 @@ impl Planner {
         match self {
             Self::Dstar | Self::Optimal => None,
             Self::DstarPso(_) => Some("candidates"),
-            Self::Pso(_) | Self::Cbpso(_) | Self::NscPso(_) => Some("evaluations"),
+            Self::IkPso(_) | Self::Pso(_) | Self::Cbpso(_) | Self::NscPso(_) => Some("evaluations"),
         }
     }
 
@@ -160,6 +162,7 @@ impl Planner {
         let few = || count(1..=64, "a whole number from 1 to 64");
         match (self, option) {
             (Self::DstarPso(own), _) => own.candidates = count(0..=usize::MAX, "a whole number")?,
+            (Self::IkPso(own), _) => own.evaluations = evaluations()?,
             (Self::Pso(own), "vias") => own.vias = few()?,
             (Self::Pso(own), "neighbourhood") => {
                 own.neighbourhood = match word(["global", "ring"], "global or ring")? {

@@ -1,7 +1,7 @@
 //! The one way into all planners.
 
 use super::settings::{Pace, PlanSettings, Planner};
-use super::{Monitor, Plan, PlanError, posture_true, swarms};
+use super::{Monitor, Plan, PlanError, dstar_pso, ik_pso, posture_true, swarms};
 use crate::arm::Arm;
 use crate::scene::{Scene, Task};
 
@@ -16,16 +16,20 @@ pub fn plan<A: Arm>(
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     check(settings)?;
-    match settings.planner {
+    match &settings.planner {
+        Planner::DstarPso(swarm) if scene.arm.lengths().len() > 2 => {
+            dstar_pso::plan(&scene.planar(), task, swarm, settings, monitor)
+        }
+        Planner::IkPso(ik) => ik_pso::plan(&scene.planar(), task, ik, settings, monitor),
         Planner::Dstar | Planner::DstarPso(_) | Planner::Optimal => {
             let planner = settings.planner.name();
             let links = scene.arm.lengths().len();
             let scene = scene.two_link().ok_or(PlanError::OtherArm { planner, links })?;
             posture_true::plan(&scene, task, settings, monitor)
         }
-        Planner::Pso(own) => swarms::pso(&scene.planar(), task, settings, &own, monitor),
-        Planner::Cbpso(own) => swarms::cbpso(&scene.planar(), task, settings, &own, monitor),
-        Planner::NscPso(own) => swarms::nsc_pso(&scene.planar(), task, settings, &own, monitor),
+        Planner::Pso(own) => swarms::pso(&scene.planar(), task, settings, own, monitor),
+        Planner::Cbpso(own) => swarms::cbpso(&scene.planar(), task, settings, own, monitor),
+        Planner::NscPso(own) => swarms::nsc_pso(&scene.planar(), task, settings, own, monitor),
     }
 }
 

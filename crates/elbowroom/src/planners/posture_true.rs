@@ -1,12 +1,12 @@
 //! Planning on places and postures: what comes out is a motion that the verifier has proved to be safe.
 
-use super::bound::{Proved, prove};
+use super::bound::{COARSE_DISTANCE, least_cost};
 use super::candidates::{Candidate, Found, GRID_TOLERANCE, SAME_COST, off_grid, over_grid};
 use super::finish::cost;
 use super::limits::{AssumedLimit, motion_limits, stated_limits};
 use super::optimal::{Search, over_joints};
 use super::problem::Problem;
-use super::settings::{Objective, Pace, PlanSettings, Planner};
+use super::settings::{Objective, PlanSettings, Planner};
 use super::smooth::{SmoothError, Smoothed, Style, smooth};
 use super::{Monitor, Plan, PlanError, Stage};
 
@@ -24,9 +24,6 @@ const CLOSER: f64 = 0.1;
 /// How far inside the obstacles the walls of a lower bound stand (rad), and before them those of the free cells: one
 /// after the other until there is a path, or a proof that there is none.
 const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
-
-/// The first for planners that do not go by them: a bound that costs a millisecond or two.
-const COARSE_DISTANCE: f64 = 1e-2;
 
 /// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
 /// more to prove than to look past.
@@ -74,18 +71,7 @@ impl<M: Monitor> Work<'_, M> {
     /// # Errors
     /// [`PlanError::NoPath`], [`PlanError::Stopped`]
     fn bound(&self, distance: f64) -> Result<Option<f64>, PlanError> {
-        self.monitor.stage(Stage::Bound);
-        let objective = self.settings.objective;
-        // A duration that was asked for heeds only the limits that the scene states.
-        let limits = match self.settings.pace {
-            Pace::Fastest => self.limits.clone(),
-            Pace::Duration(_) => stated_limits(&self.scene.arm),
-        };
-        match prove(self.scene, &self.problem, objective, &limits, distance, self.monitor)? {
-            Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
-            Proved::AtLeast(cost) => Ok(Some(cost)),
-            Proved::Nothing => Ok(None),
-        }
+        least_cost(self.scene, &self.problem, self.settings, distance, self.monitor)
     }
 
     fn over_grid(&self) -> Result<Plan, PlanError> {

@@ -1,3 +1,4 @@
+use super::IkPsoSettings;
 use super::swarms::{CbpsoSettings, NscPsoSettings, PsoSettings};
 use crate::swarm::GuidedSwarmSettings;
 
@@ -6,7 +7,8 @@ use crate::swarm::GuidedSwarmSettings;
 pub enum Planner {
     /// D*'s back-pointers alone, over grid points and postures.
     Dstar,
-    /// The best of the paths that the modified lbest swarm draws there.
+    /// The best of the paths that the modified lbest swarm draws there; for arms of more than two links, of those that a swarm
+    /// follows along D*'s ways over the tip's workspace.
     DstarPso(GuidedSwarmSettings),
     /// Taut paths that leave the grid.
     Optimal,
@@ -16,6 +18,8 @@ pub enum Planner {
     Cbpso(CbpsoSettings),
     /// A swarm over way-points that begins where the straight way is bad.
     NscPso(NscPsoSettings),
+    /// Inverse kinematics by a swarm along a tip path, IK-PSO-style.
+    IkPso(IkPsoSettings),
 }
 
 impl Planner {
@@ -28,6 +32,7 @@ impl Planner {
             Self::Pso(_) => "pso",
             Self::Cbpso(_) => "cbpso",
             Self::NscPso(_) => "nsc-pso",
+            Self::IkPso(_) => "ik-pso",
         }
     }
 }

@@ -1,7 +1,17 @@
-//! What planners of arms with any number of links share.
+//! What planners of arms with any number of links share: a guide over the tip's workspace, inverse kinematics by swarm,
+//! certified turns.
 
-mod contact;
+mod guide;
+mod inverse_swarm;
+mod lead;
 mod ledger;
+mod shorten;
+mod trees;
 
-pub(in crate::planners) use contact::violation;
+pub use inverse_swarm::{InverseSwarmError, InverseSwarmSettings, Previous, SwarmInverse, inverse_by_swarm};
+
+pub(super) use guide::Guide;
+pub(super) use lead::Leader;
 pub(in crate::planners) use ledger::{Halt, Ledger};
+pub(super) use shorten::{price, shortened};
+pub(super) use trees::Trees;

@@ -1,10 +1,10 @@
 //! How long a polyline of configurations is, and how far from free.
 
+use super::super::contacts::Contacts;
 use super::super::limits::motion_limits;
 use super::super::settings::Objective;
 use crate::arm::{Arm, PlanarArm, joint_distance};
-use crate::geometry::{Point, Segment};
-use crate::scene::{Obstacle, Scene, Shape};
+use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
 
 /// Distance between two looks at a turn, as a share of the reach, and the most looks at one.
@@ -20,11 +20,8 @@ pub(super) struct Track<'a> {
     pub(super) scene: &'a Scene<PlanarArm>,
     objective: Objective,
     limits: Vec<SpeedLimits>,
-    /// Clearance that counts as free (m).
-    kept: f64,
     look_every: f64,
-    /// Around each obstacle a disc: centre and radius (m).
-    discs: Vec<(Point, f64)>,
+    contacts: Contacts<'a>,
     /// Whether the second of two joints must not change its sign.
     keeps_posture: bool,
 }
@@ -33,9 +30,8 @@ impl<'a> Track<'a> {
     pub(super) fn new(scene: &'a Scene<PlanarArm>, objective: Objective, keeps_posture: bool) -> Self {
         let (limits, _) = motion_limits(&scene.arm);
         let [_, reach] = scene.arm.reach();
-        let discs = scene.obstacles.iter().map(disc_around).collect();
-        let (kept, look_every) = (KEPT * reach, LOOK_EVERY * reach);
-        Self { scene, objective, limits, kept, look_every, discs, keeps_posture }
+        let contacts = Contacts::new(scene, KEPT * reach);
+        Self { scene, objective, limits, look_every: LOOK_EVERY * reach, contacts, keeps_posture }
     }
 
     pub(super) fn limits(&self) -> &[SpeedLimits] {
@@ -106,35 +102,7 @@ impl<'a> Track<'a> {
             _ => 0.0,
         };
         let [_, reach] = self.scene.arm.reach();
-        self.contact(q) + (beyond + flipped) * reach
-    }
-
-    /// By how much links come nearer than is kept to what they must not touch, summed up (m); it grows with the depth of
-    /// every contact, so that there is always a way out.
-    fn contact(&self, q: &[f64]) -> f64 {
-        let arm = &self.scene.arm;
-        let links: Vec<Segment> = arm.link_segments(q).collect();
-        let needed = self.kept + arm.half_width();
-        let mut sum = 0.0;
-        for (obstacle, (center, radius)) in self.scene.obstacles.iter().zip(&self.discs) {
-            for link in &links {
-                if link.distance_to_point(*center) - radius < needed {
-                    sum += (needed - signed_distance(obstacle, *link)).max(0.0);
-                }
-            }
-        }
-        if arm.self_collision() {
-            let needed = self.kept + 2.0 * arm.half_width();
-            for (i, link) in links.iter().enumerate() {
-                for other in links.iter().skip(i + 2) {
-                    let distance = link.distance_to_segment(*other);
-                    // Links that cross are as deep as their nearest end is from coming out.
-                    let depth = if distance > 0.0 { 0.0 } else { nearest_end(*link, *other) };
-                    sum += (needed - distance).max(0.0) + depth;
-                }
-            }
-        }
-        sum
+        self.contacts.violation(q) + (beyond + flipped) * reach
     }
 
     /// How far a point of the arm may move (m) while the joints turn evenly.
@@ -152,32 +120,4 @@ impl<'a> Track<'a> {
 
 fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
     from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect()
-}
-
-/// From the obstacle to the link, negative by the depth (m).
-fn signed_distance(obstacle: &Obstacle, link: Segment) -> f64 {
-    let distance = obstacle.distance_to_segment(link);
-    if distance > 0.0 { distance } else { obstacle.signed_distance_to_segment(link) }
-}
-
-/// How far the nearest end of two links is from the other link (m).
-fn nearest_end(a: Segment, b: Segment) -> f64 {
-    let of =
-        |link: Segment, other: Segment| link.distance_to_point(other.a).min(link.distance_to_point(other.b));
-    of(a, b).min(of(b, a))
-}
-
-fn disc_around(obstacle: &Obstacle) -> (Point, f64) {
-    match &obstacle.shape {
-        Shape::Circle(circle) => (circle.center, circle.radius),
-        Shape::Polygon(polygon) => {
-            let corners = polygon.vertices();
-            let ends = |of: fn(&Point) -> f64| {
-                let values = || corners.iter().map(of);
-                (values().fold(f64::INFINITY, f64::min) + values().fold(f64::NEG_INFINITY, f64::max)) / 2.0
-            };
-            let center = Point::new(ends(|p| p.x), ends(|p| p.y));
-            (center, corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
-        }
-    }
 }

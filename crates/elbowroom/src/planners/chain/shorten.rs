@@ -1,0 +1,107 @@
+//! A certified path made cheaper: straight turns in place of detours.
+
+use super::lead::Leader;
+use super::ledger::Halt;
+use crate::arm::{PlanarArm, joint_distance};
+use crate::path::{JointPath, simplify};
+use crate::planners::Monitor;
+use crate::planners::limits::motion_limits;
+use crate::planners::settings::Objective;
+use crate::trajectory::{fastest_durations, vias_at};
+
+/// Shortcuts tried for each path.
+const TRIES: usize = 250;
+
+/// Tries without a gain after which it ends.
+const PATIENCE: usize = 60;
+
+/// What joint travel weighs where tip travel counts, as a share of the reach (m/rad): enough against needless self-motion.
+const JOINT_SHARE: f64 = 0.02;
+
+/// Places nearer to the path than this, in grid steps, do not count for its price in time.
+const TOLERANCE: f64 = 0.1;
+
+/// What `path` promises to cost in terms of `objective`.
+pub(in crate::planners) fn price(
+    arm: &PlanarArm,
+    objective: Objective,
+    path: &JointPath<Vec<f64>>,
+    grid_step: f64,
+) -> f64 {
+    match objective {
+        Objective::Tip => path.tip_travel(arm),
+        Objective::Joint => path.length(),
+        Objective::Time => {
+            let kept = simplify(arm, &path.0, TOLERANCE * grid_step);
+            let places: Vec<Vec<f64>> = kept.into_iter().map(|i| path.0[i].clone()).collect();
+            fastest_durations(&vias_at(&places), &motion_limits(arm).0).iter().sum()
+        }
+    }
+}
+
+/// What a stretch of a path weighs when another is tried in its place.
+fn weight(arm: &PlanarArm, objective: Objective, places: &[Vec<f64>]) -> f64 {
+    let joint: f64 = places.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum();
+    match objective {
+        Objective::Tip => JointPath(places.to_vec()).tip_travel(arm) + JOINT_SHARE * arm.reach()[1] * joint,
+        Objective::Joint | Objective::Time => joint,
+    }
+}
+
+/// `path` with straight turns, certified, in place of stretches that weigh more; it ends early where the budget does.
+///
+/// # Errors
+/// [`Halt::Failed`]
+pub(in crate::planners) fn shortened<M: Monitor>(
+    leader: &mut Leader<'_, M>,
+    mut path: Vec<Vec<f64>>,
+    objective: Objective,
+) -> Result<JointPath<Vec<f64>>, Halt> {
+    let arm = &leader.scene.arm;
+    let mut idle = 0;
+    for _ in 0..TRIES {
+        if path.len() < 2 || idle == PATIENCE {
+            break;
+        }
+        idle += 1;
+        let (a, b) = (leader.unit(), leader.unit());
+        let (first, last) = (place(&path, a.min(b)), place(&path, a.max(b)));
+        if first.0 == last.0 {
+            continue;
+        }
+        let mut stretch = vec![first.1.clone()];
+        stretch.extend(path[first.0 + 1..=last.0].iter().cloned());
+        stretch.push(last.1.clone());
+        let ends = [first.1.clone(), last.1.clone()];
+        if weight(arm, objective, &ends) >= weight(arm, objective, &stretch) * (1.0 - 1e-6) {
+            continue;
+        }
+        match leader.joins(&first.1, &last.1) {
+            Ok(true) => {
+                path.splice(first.0 + 1..=last.0, ends);
+                path.dedup();
+                idle = 0;
+            }
+            Ok(false) => {}
+            Err(Halt::Spent) => break,
+            Err(halt) => return Err(halt),
+        }
+    }
+    Ok(JointPath(path))
+}
+
+/// The place at `share` of the way along `path`, and the index of the one it lies after.
+fn place(path: &[Vec<f64>], share: f64) -> (usize, Vec<f64>) {
+    let lengths: Vec<f64> = path.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).collect();
+    let mut left = share * lengths.iter().sum::<f64>();
+    for (i, length) in lengths.iter().enumerate() {
+        if left < *length {
+            let fraction = left / length;
+            let between = path[i].iter().zip(&path[i + 1]).map(|(a, b)| a + (b - a) * fraction).collect();
+            return (i, between);
+        }
+        left -= length;
+    }
+    let before = path.len().saturating_sub(2);
+    (before, path[path.len() - 1].clone())
+}

@@ -1,0 +1,308 @@
+//! Two trees of configurations, one from the starts and one from the goals, that grow towards each other.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+
+use super::guide::Guide;
+use super::lead::Leader;
+use super::ledger::Halt;
+use crate::arm::{Arm, JointLimits, PlanarArm, joint_distance};
+use crate::geometry::{Point, angle_difference};
+use crate::planners::Monitor;
+use crate::planners::ends::{Ends, nearest_turn};
+
+/// How far the tip is led in one step at first, as a share of the reach; where that fails, half as far, and so on.
+const STRIDE: f64 = 0.08;
+
+/// Particles and iterations of the swarm that is asked where damped least squares fail.
+const SWARM: [usize; 2] = [12, 15];
+
+/// How far from the configuration before it the swarm looks (rad).
+const RADIUS: f64 = 0.5;
+
+/// Configurations of one cell nearer to each other than this are one (rad).
+const DIFFERENT: f64 = 0.1;
+
+/// How far joints are shaken for self-motion (rad).
+const SHAKE: f64 = 0.5;
+
+/// Greatest turn of a joint in one step between configurations (rad).
+const TURN: f64 = 0.25;
+
+/// Least distance from the goals by the guide, in strides, at which the tip is led to the goal itself.
+const NEAR: f64 = 3.0;
+
+/// Rings of cells around one that could not be reached, which are made costlier with it.
+const RAISED: usize = 3;
+
+/// What each try from a configuration costs it in the queue, in strides.
+const TRIED: f64 = 2.0;
+
+/// Random share of a place in the queue, so that another seed finds another path.
+const JITTER: f64 = 0.1;
+
+/// Of so many steps of a tree one explores without the guide.
+const EXPLORE_EVERY: usize = 3;
+
+struct Node {
+    q: Vec<f64>,
+    parent: Option<usize>,
+    cell: usize,
+    tried: usize,
+}
+
+struct Tree {
+    nodes: Vec<Node>,
+    by_cell: BTreeMap<usize, Vec<usize>>,
+    queue: BinaryHeap<Reverse<(u64, usize)>>,
+    /// To where the other tree began.
+    guide: Guide,
+}
+
+/// The search; the guides keep what they learn from one to the next.
+pub(in crate::planners) struct Trees<'a> {
+    ends: &'a Ends,
+    /// Where the tip shall be at the goal and at the start, where that is all that is asked: what each tree grows towards.
+    tips: [Option<Point>; 2],
+    guides: [Guide; 2],
+}
+
+impl<'a> Trees<'a> {
+    /// `to_goals` leads to the goals' tips, `to_starts` to the starts'; `tips` are that of the goal and that of the start,
+    /// where any configuration with its tip there will do.
+    pub(in crate::planners) fn new(
+        ends: &'a Ends,
+        tips: [Option<Point>; 2],
+        to_goals: Guide,
+        to_starts: Guide,
+    ) -> Self {
+        Self { ends, tips, guides: [to_goals, to_starts] }
+    }
+
+    /// A path from a start to a goal, whose straight turns are certified.
+    ///
+    /// # Errors
+    /// [`Halt`]
+    pub(in crate::planners) fn path<M: Monitor>(
+        &self,
+        leader: &mut Leader<'_, M>,
+    ) -> Result<Vec<Vec<f64>>, Halt> {
+        let [mut from_starts, mut from_goals] = [0, 1].map(|side| Tree {
+            nodes: Vec::new(),
+            by_cell: BTreeMap::new(),
+            queue: BinaryHeap::new(),
+            guide: self.guides[side].clone(),
+        });
+        for q in &self.ends.starts {
+            from_starts.insert(leader, q.clone(), None)?;
+        }
+        for q in &self.ends.goals {
+            from_goals.insert(leader, q.clone(), None)?;
+        }
+        for turn in 0.. {
+            let forward = turn % 2 == 0;
+            let (growing, other) = if forward {
+                (&mut from_starts, &mut from_goals)
+            } else {
+                (&mut from_goals, &mut from_starts)
+            };
+            let explores = (turn / 2) % EXPLORE_EVERY == EXPLORE_EVERY - 1;
+            let new = if explores { growing.explore(leader)? } else { growing.follow(leader)? };
+            let Some(new) = new else { continue };
+            if let Some(tip) = self.tips[usize::from(!forward)]
+                && let Some(last) = growing.end_at(leader, new, tip)?
+            {
+                let mut path = growing.trace(last);
+                if !forward {
+                    path.reverse();
+                }
+                return Ok(path);
+            }
+            if let Some(met) = other.connect(leader, &growing.nodes[new].q)? {
+                let (a, b) =
+                    if forward { ((growing, new), (other, met)) } else { ((other, met), (growing, new)) };
+                return Ok(joined(a.0.trace(a.1), b.0.trace(b.1)));
+            }
+        }
+        Err(Halt::Spent)
+    }
+}
+
+/// `to_meeting`, and from there back along `from_goal`, counted on by the whole turns between both.
+fn joined(mut to_meeting: Vec<Vec<f64>>, mut from_goal: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    if let (Some(here), Some(there)) = (to_meeting.last(), from_goal.last()) {
+        let whole = |(a, b): (&f64, &f64)| ((a - b) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
+        let turns: Vec<f64> = here.iter().zip(there).map(whole).collect();
+        from_goal.pop();
+        let turned = |q: Vec<f64>| q.iter().zip(&turns).map(|(angle, turn)| angle + turn).collect();
+        to_meeting.extend(from_goal.into_iter().rev().map(turned));
+    }
+    to_meeting
+}
+
+impl Tree {
+    fn insert<M: Monitor>(
+        &mut self,
+        leader: &mut Leader<'_, M>,
+        q: Vec<f64>,
+        parent: Option<usize>,
+    ) -> Result<Option<usize>, Halt> {
+        let Some(cell) = self.guide.cell(leader.tip(&q)) else { return Ok(None) };
+        let arm = &leader.scene.arm;
+        let there = self.by_cell.entry(cell).or_default();
+        if there.iter().any(|&other| distance(arm, &self.nodes[other].q, &q) < DIFFERENT) {
+            return Ok(None);
+        }
+        let node = self.nodes.len();
+        there.push(node);
+        self.nodes.push(Node { q, parent, cell, tried: 0 });
+        self.push(leader, node)?;
+        Ok(Some(node))
+    }
+
+    fn push<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, node: usize) -> Result<(), Halt> {
+        let Node { cell, tried, .. } = self.nodes[node];
+        self.guide.repair(cell, leader.ledger.monitor)?;
+        let penalty = TRIED * STRIDE * leader.scene.arm.reach()[1] * tried as f64;
+        let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * leader.unit());
+        // Never negative, so that its bits sort as it does.
+        self.queue.push(Reverse((key.to_bits(), node)));
+        Ok(())
+    }
+
+    /// Leads the most promising configuration along the guide; the guide is repaired where that fails.
+    fn follow<M: Monitor>(&mut self, leader: &mut Leader<'_, M>) -> Result<Option<usize>, Halt> {
+        let Some(Reverse((_, node))) = self.queue.pop() else { return self.explore(leader) };
+        let (from, cell, tried) = {
+            let node = &mut self.nodes[node];
+            node.tried += 1;
+            (node.q.clone(), node.cell, node.tried)
+        };
+        self.guide.repair(cell, leader.ledger.monitor)?;
+        let reach = leader.scene.arm.reach()[1];
+        let mut steps = ((STRIDE * reach / leader.scene.grid.step()).round() as usize).clamp(1, 64);
+        // After the first try, from elsewhere on the self-motion.
+        let near = if tried == 1 { from.clone() } else { leader.shaken(&from, SHAKE) };
+        let mut found = None;
+        loop {
+            let tip = self.guide.point(self.guide.ahead(cell, steps));
+            found = found.or(leader.by_least_squares(&from, &near, tip)?);
+            if found.is_some() || steps == 1 {
+                break;
+            }
+            steps /= 2;
+        }
+        if found.is_none() {
+            let target = self.guide.ahead(cell, 2);
+            let tip = self.guide.point(target);
+            found = leader.by_swarm(&from, &near, tip, RADIUS, SWARM)?;
+            if found.is_none() {
+                self.guide.raise(target, RAISED);
+            }
+        }
+        self.push(leader, node)?;
+        match found {
+            Some(q) => self.insert(leader, q, Some(node)),
+            None => Ok(None),
+        }
+    }
+
+    /// Moves some configuration without the guide: the arm by itself with the tip where it is, or towards anywhere.
+    fn explore<M: Monitor>(&mut self, leader: &mut Leader<'_, M>) -> Result<Option<usize>, Halt> {
+        if leader.unit() < 0.5 {
+            let node = leader.below(self.nodes.len());
+            let from = self.nodes[node].q.clone();
+            let (near, tip) = (leader.shaken(&from, SHAKE), leader.tip(&from));
+            return match leader.by_least_squares(&from, &near, tip)? {
+                Some(q) => self.insert(leader, q, Some(node)),
+                None => Ok(None),
+            };
+        }
+        let middle = vec![0.0; leader.scene.arm.joints().len()];
+        let anywhere = leader.shaken(&middle, std::f64::consts::PI);
+        let Some((node, target)) = self.nearest(&leader.scene.arm, &anywhere) else { return Ok(None) };
+        let to = step(&self.nodes[node].q, &target);
+        let from = self.nodes[node].q.clone();
+        if leader.joins(&from, &to)? { self.insert(leader, to, Some(node)) } else { Ok(None) }
+    }
+
+    /// The configuration nearest to `q`, and `q` counted on by whole turns to where it is nearest to that.
+    fn nearest(&self, arm: &PlanarArm, q: &[f64]) -> Option<(usize, Vec<f64>)> {
+        let by_distance = |a: &usize, b: &usize| {
+            distance(arm, &self.nodes[*a].q, q).total_cmp(&distance(arm, &self.nodes[*b].q, q))
+        };
+        let node = (0..self.nodes.len()).min_by(by_distance)?;
+        Some((node, nearest_turn(arm, &self.nodes[node].q, q)))
+    }
+
+    /// Goes from the nearest configuration towards `q`, step by step; the one that is `q`, if it gets there.
+    fn connect<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, q: &[f64]) -> Result<Option<usize>, Halt> {
+        let Some((mut node, target)) = self.nearest(&leader.scene.arm, q) else { return Ok(None) };
+        loop {
+            let from = self.nodes[node].q.clone();
+            let to = step(&from, &target);
+            if !leader.joins(&from, &to)? {
+                return Ok(None);
+            }
+            let is_there = to == target;
+            if is_there {
+                // Whether or not its like is known: the trees meet here.
+                let Some(cell) = self.guide.cell(leader.tip(&to)) else { return Ok(None) };
+                self.nodes.push(Node { q: to, parent: Some(node), cell, tried: 0 });
+                return Ok(Some(self.nodes.len() - 1));
+            }
+            let Some(next) = self.insert(leader, to, Some(node))? else { return Ok(None) };
+            node = next;
+        }
+    }
+
+    /// The end of the path with the tip at `tip`, if that is near `node` and can be reached from it.
+    fn end_at<M: Monitor>(
+        &mut self,
+        leader: &mut Leader<'_, M>,
+        node: usize,
+        tip: Point,
+    ) -> Result<Option<usize>, Halt> {
+        let (from, cell) = (self.nodes[node].q.clone(), self.nodes[node].cell);
+        let far = leader.tip(&from).distance(tip) > NEAR * STRIDE * leader.scene.arm.reach()[1];
+        if far {
+            return Ok(None);
+        }
+        let Some(q) = leader.by_least_squares(&from, &from, tip)? else { return Ok(None) };
+        self.nodes.push(Node { q, parent: Some(node), cell, tried: 0 });
+        Ok(Some(self.nodes.len() - 1))
+    }
+
+    /// The configurations from the root to `node`.
+    fn trace(&self, node: usize) -> Vec<Vec<f64>> {
+        let parents = std::iter::successors(Some(node), |&node| self.nodes[node].parent);
+        let mut path: Vec<Vec<f64>> = parents.map(|node| self.nodes[node].q.clone()).collect();
+        path.reverse();
+        path
+    }
+}
+
+/// From `from` towards `to`, by one step.
+fn step(from: &[f64], to: &[f64]) -> Vec<f64> {
+    let widest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
+    if widest <= TURN {
+        return to.to_vec();
+    }
+    from.iter().zip(to).map(|(a, b)| a + (b - a) * (TURN / widest)).collect()
+}
+
+/// Distance between configurations (rad), continuous joints the short way round.
+fn distance(arm: &PlanarArm, from: &[f64], to: &[f64]) -> f64 {
+    if arm.joints().iter().all(|joint| joint.limits != JointLimits::Continuous) {
+        return joint_distance(from, to);
+    }
+    let joints = arm.joints().iter().zip(from.iter().zip(to));
+    let squares: f64 = joints
+        .map(|(joint, (&from, &to))| match joint.limits {
+            JointLimits::Continuous => angle_difference(from, to),
+            JointLimits::Range { .. } => to - from,
+        })
+        .map(|turn| turn * turn)
+        .sum();
+    squares.sqrt()
+}
