@@ -75,7 +75,7 @@ def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path)
         (
             ("plan", "SCENES/paper-standin.yaml", "--task", "first", "--planner", "rrt"),
             2,
-            "dstar-pso, dstar or optimal",
+            "no planner is called 'rrt'; known: dstar-pso, dstar, optimal",
         ),
         (("plan", "SCENES/paper-table1.yaml", "--task", "first"), 3, "not found at this resolution"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--timeout", "0"), 3, "timeout"),
@@ -84,7 +84,7 @@ def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path)
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--objective", "fun"), 2, "tip, joint or time"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--animate"), 2, "needs --out"),
         (("check", "SCENES/paper-standin.yaml", "missing.csv"), 2, "missing.csv: cannot be read"),
-        (("check", "SCENES/paper-standin.yaml", "missing.csv", "--joints", "a"), 2, "names 1 joints"),
+        (("check", "SCENES/paper-standin.yaml", "missing.csv", "--joints", "a"), 2, "names 1; the arm of"),
     ],
 )
 def test_failures_are_short_and_have_their_exit_code(

@@ -24,7 +24,8 @@ from elbowroom.compare.run import run
 from elbowroom.compare.straight_turns import ASSUMED_LIMITS
 from elbowroom.compare.table import DamagedTable, parquet_is_there, write_parquet
 from elbowroom.compare.worker import Batch
-from elbowroom.planners import OWN, Choice, all_chosen, chosen
+from elbowroom.own_planners import OWN
+from elbowroom.planners import Choice, all_chosen, chosen
 
 TESTS = Path(__file__).parent
 

@@ -96,7 +96,7 @@ def test_configurations_are_at_the_place_and_within_the_limits(standin: er.Scene
         found = configurations(scene, (x, y))
         counts.add(len(found))
         for q in found:
-            np.testing.assert_allclose(scene.core.elbows_and_tips(q[None])[1][0], (x, y), atol=1e-12)
+            np.testing.assert_allclose(scene.core.link_ends(q[None])[0, -1], (x, y), atol=1e-12)
             assert -2.0 * math.tau <= q[0] <= math.tau
             assert abs(q[1]) <= bend
         assert len({tuple(q) for q in found}) == len(found)

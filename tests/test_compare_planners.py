@@ -17,7 +17,8 @@ from elbowroom.compare.report import write_report
 from elbowroom.compare.row import Problem
 from elbowroom.compare.run import run
 from elbowroom.compare.worker import Batch
-from elbowroom.planners import OWN, Choice, all_chosen, chosen, known
+from elbowroom.own_planners import OWN
+from elbowroom.planners import Choice, all_chosen, chosen, known
 
 TESTS = Path(__file__).parent
 
@@ -87,9 +88,9 @@ def test_planners_are_listed_and_chosen() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("rrt", "no planner is called 'rrt'; known: dstar-pso, dstar, optimal, "),
+        ("rrt", f"no planner is called 'rrt'; known: {', '.join(OWN)}, "),
         ("dstar,,rrt", "no planner is called 'rrt'"),
-        ("", "no planner is named; known: dstar-pso"),
+        ("", f"no planner is named; known: {', '.join(OWN)}"),
         (" , ", "no planner is named"),
         ("dstar, dstar", "planner dstar is named twice"),
         ("detour,detour:tries=3", "planner detour is named twice"),

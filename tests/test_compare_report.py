@@ -19,6 +19,7 @@ from elbowroom.compare.generate import generated, write_scenes
 from elbowroom.compare.report import write_report
 from elbowroom.compare.row import FAILURES
 from elbowroom.compare.summary import summarised
+from elbowroom.own_planners import OWN
 
 TESTS = Path(__file__).parent
 
@@ -141,7 +142,7 @@ def test_compare_on_the_command_line(tmp_path: Path) -> None:
     ("arguments", "words"),
     [
         (("missing.yaml",), "missing.yaml: cannot be read"),
-        (("SCENE", "--planners", "rrt"), "known: dstar-pso, dstar, optimal"),
+        (("SCENE", "--planners", "rrt"), f"known: {', '.join(OWN)}"),
         (("SCENE", "--planners", "dstar:speed=2"), "no option 'speed'"),
         (("SCENE", "--seeds", "0"), "--seeds"),
         (("SCENE", "--objective", "fun"), "tip, joint or time"),

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.plan_files import COLUMNS, as_csv, as_json, write_plan
+from elbowroom.plan_files import as_csv, as_json, columns, write_plan
 
 
 def test_the_maps_hold_a_reason_for_every_point(standin: er.Scene) -> None:
@@ -35,7 +35,7 @@ def test_the_paper_mode_plan_is_what_it_says(standin: er.Scene) -> None:
     assert steps.sum() == pytest.approx(plan.cost, abs=1e-12)
     assert plan.verdict is None
     assert plan.gap is None
-    _, tips = standin.core.elbows_and_tips(plan.configurations)
+    tips = standin.core.link_ends(plan.configurations)[:, -1]
     np.testing.assert_allclose(tips, plan.tip_path, atol=1e-12)
     samples = plan.sample(period=0.01)
     assert samples.t[0] == 0.0
@@ -55,7 +55,7 @@ def test_plan_files_hold_the_plan(standin: er.Scene, tmp_path: Path) -> None:
     assert set(read) >= {"planner", "settings", "seed", "objective", "cost", "gap", "tip_path", "configurations"}
     assert set(read) >= {"postures", "pieces", "timings_s", "version"}
     header, *rows = table.read_text().splitlines()
-    assert header == ",".join(COLUMNS) == "time_s,q1_rad,q2_rad,v1_rad_s,v2_rad_s,a1_rad_s2,a2_rad_s2,x_m,y_m"
+    assert header == ",".join(columns(2)) == "time_s,q1_rad,q2_rad,v1_rad_s,v2_rad_s,a1_rad_s2,a2_rad_s2,x_m,y_m"
     values = np.array([[float(cell) for cell in row.split(",")] for row in rows])
     assert len(values) == 1001
     np.testing.assert_array_equal(values[:, 1:3], plan.sample().q)

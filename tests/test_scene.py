@@ -83,7 +83,7 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     ("change", "key"),
     [
         ({"grid": er.Grid(x=(1.0, 0.0), y=(0.0, 1.0), step=0.1)}, "grid"),
-        ({"arm": er.Arm(links=(0.1, 0.2, 0.3), joints=(er.Joint(continuous=True),) * 3)}, "arm"),
+        ({"arm": er.Arm(links=(0.1, 0.2, 0.3), joints=(er.Joint(continuous=True),) * 2)}, "arm"),
         ({"arm": er.Arm(links=(0.1, 0.2), joints=(er.Joint(),) * 2)}, "arm.joints[0]"),
         ({"obstacles": [er.Circle(center=(0.0, 0.0), radius=-1.0)]}, "obstacles[0]"),
         ({"obstacles": [er.Polygon(vertices=[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)])]}, "obstacles[0]"),

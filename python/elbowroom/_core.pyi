@@ -20,6 +20,8 @@ __all__ = [
     "interpolated",
     "plan",
     "plan_as_in_paper",
+    "planner_options",
+    "planners_known",
     "verify",
 ]
 
@@ -37,7 +39,8 @@ class Scene:
         tasks: Sequence[tuple[str, scene.Task]],
     ) -> Scene: ...
     def link_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def elbows_and_tips(self, q: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def self_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
+    def link_ends(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
 
 @final
 class SceneFile:
@@ -131,6 +134,8 @@ class Plan:
     @property
     def assumed_limits(self) -> list[tuple[int, str, float]]: ...
     @property
+    def effort(self) -> tuple[int, list[tuple[int, float]]] | None: ...
+    @property
     def timings(self) -> list[tuple[str, float]]: ...
     def verdict(self, scene: Scene) -> Verdict: ...
 
@@ -141,12 +146,14 @@ def plan(
     planner: str,
     objective: str,
     seed: int,
-    candidates: int,
+    options: Sequence[tuple[str, int | str]],
     duration: float | None = None,
     gap: float | None = None,
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan: ...
+def planner_options(planner: str, options: Sequence[tuple[str, int | str]]) -> dict[str, int | str]: ...
+def planners_known() -> list[tuple[str, dict[str, int | str], str | None]]: ...
 def interpolated(
     times: NDArray[np.float64],
     positions: NDArray[np.float64],

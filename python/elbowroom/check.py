@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,14 +50,14 @@ def check(
     Args:
         scene: Arm and obstacles.
         t: Times, ascending, shape ``(n,)`` (s).
-        q: Configurations, shape ``(n, 2)`` (rad).
-        v: Velocities, if known, shape ``(n, 2)`` (rad/s).
-        a: Accelerations, if known, shape ``(n, 2)`` (rad/s²).
+        q: Configurations, shape ``(n, joints)`` (rad).
+        v: Velocities, if known, shape ``(n, joints)`` (rad/s).
+        a: Accelerations, if known, shape ``(n, joints)`` (rad/s²).
         margin: Clearance to keep (m).
         timeout: When to give up (s).
 
     Raises:
-        TrajectoryError: The samples make no motion.
+        TrajectoryError: The samples make no motion of this arm.
         TimedOut: The timeout came first.
     """
     arrays = [None if x is None else np.ascontiguousarray(x, dtype=np.float64) for x in (q, v, a)]
@@ -69,7 +70,7 @@ def check_file(
     scene: Scene,
     path: str | Path,
     *,
-    joints: tuple[str, str] | None = None,
+    joints: Sequence[str] | None = None,
     margin: float = 0.0,
     timeout: float | None = None,
 ) -> Check:
@@ -77,18 +78,18 @@ def check_file(
 
     Args:
         scene: Arm and obstacles.
-        path: CSV with ``time_s,q1_rad,q2_rad`` and, if known, ``v1_rad_s,...`` and ``a1_rad_s2,...``; or a JSON or YAML
-            dump of a ROS 2 ``trajectory_msgs/JointTrajectory``.
-        joints: The joints' names in a JointTrajectory, base first, where they do not end in 1 and 2.
+        path: CSV with ``time_s,q1_rad,q2_rad,...`` and, if known, ``v1_rad_s,...`` and ``a1_rad_s2,...``; or a JSON or
+            YAML dump of a ROS 2 ``trajectory_msgs/JointTrajectory``.
+        joints: The joints' names in a JointTrajectory, base first, where they do not end in 1, 2, ...
         margin: Clearance to keep (m).
         timeout: When to give up (s).
 
     Raises:
-        TrajectoryError: The file cannot be read or is no trajectory.
+        TrajectoryError: The file cannot be read or is no trajectory of this arm.
         TimedOut: The timeout came first.
     """
     try:
-        samples: TrajectorySamples = read_trajectory(Path(path), joints=joints)
+        samples: TrajectorySamples = read_trajectory(Path(path), joints=len(scene.arm.joints), names=joints)
         return check(scene, t=samples.t, q=samples.q, v=samples.v, a=samples.a, margin=margin, timeout=timeout)
     except TrajectoryError as error:
         raise TrajectoryError(f"{path}: {error}") from None

@@ -65,7 +65,9 @@ class UnknownTask(ElbowroomError, ValueError):
 
 
 class Reason(TypedDict, total=False):
-    """What forbids a place. ``reason`` is out_of_reach, joint_limit or collision; the other keys go with it."""
+    """What forbids a place. ``reason`` is out_of_reach, joint_limit, collision or self_collision; the other keys go
+    with it.
+    """
 
     posture: str | None
     reason: str
@@ -77,6 +79,7 @@ class Reason(TypedDict, total=False):
     link: int
     obstacle: int
     name: str | None
+    other_link: int
     depth: float
 
 
@@ -90,7 +93,7 @@ class NotFree(ElbowroomError, ValueError):
     task: str
     end: str
     tip: tuple[float, float] | None
-    configuration: tuple[float, float] | None
+    configuration: tuple[float, ...] | None
     reasons: Sequence[Reason]
     nearest_free: tuple[float, float] | None
 
@@ -103,7 +106,7 @@ class NotFree(ElbowroomError, ValueError):
         reasons: Sequence[Reason],
         nearest_free: tuple[float, float] | None,
         tip: tuple[float, float] | None = None,
-        configuration: tuple[float, float] | None = None,
+        configuration: tuple[float, ...] | None = None,
     ) -> None:
         super().__init__(
             message,
@@ -142,15 +145,15 @@ class NoPath(ElbowroomError):
 
 
 class NotFound(ElbowroomError):
-    """No path at this resolution; it is not proved that there is none.
+    """No path at this resolution or in this budget; it is not proved that there is none.
 
     ``step`` is the distance between grid points (m) or, for ``optimal``, the least that paths kept from forbidden
-    joint angles (rad).
+    joint angles (rad); None for planners that have neither.
     """
 
-    step: float
+    step: float | None
 
-    def __init__(self, message: str, *, step: float) -> None:
+    def __init__(self, message: str, *, step: float | None) -> None:
         super().__init__(message, step=step)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -12,19 +12,19 @@ from numpy.typing import NDArray
 
 from elbowroom import _core
 from elbowroom.errors import BadSetting, NotFree, UnknownTask
+from elbowroom.own_planners import OwnOption, all_options
 from elbowroom.scene import Scene
 from elbowroom.verdict import Verdict
 
 PaperPlanner = Literal["dstar-pso", "dstar"]
-Planner = Literal["dstar-pso", "dstar", "optimal"]
 Objective = Literal["tip", "joint", "time"]
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Samples:
-    """A motion at instants ``t`` (s): joint positions, velocities, accelerations, jerks (rad, rad/s, ...) and elbow and
-    tip (m), shape ``(n, 2)`` each.
+    """A motion at instants ``t`` (s): joint positions, velocities, accelerations and jerks (rad, rad/s, ...), shape
+    ``(n, joints)`` each, and where the links end (m), base first, shape ``(n, links, 2)``.
     """
 
     t: Floats
@@ -32,8 +32,12 @@ class Samples:
     v: Floats
     a: Floats
     j: Floats
-    elbow: Floats
-    tip: Floats
+    link_ends: Floats
+
+    @property
+    def tip(self) -> Floats:
+        """Where the tip is, shape ``(n, 2)`` (m)."""
+        return self.link_ends[:, -1]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,8 +52,9 @@ class Plan:
         tip_path: Places of the tip, start and goal included, shape ``(n, 2)`` (m).
         equal_paths: All different paths of that cost that were drawn, ``tip_path`` first; in paper mode only.
         paths_to_choose_from: How many different paths the choice was among.
-        configurations: One for each place of ``tip_path``, shape ``(n, 2)`` (rad).
-        postures: ``elbow-up``, ``elbow-down``, or None with the links in line, for each configuration.
+        configurations: One for each place of ``tip_path``, shape ``(n, joints)`` (rad).
+        postures: ``elbow-up``, ``elbow-down``, or None with the links in line or more links than two, for each
+            configuration.
         jumps: Steps of the path that no arm can carry out: the place each begins at, and what is impossible.
         vias: Places of ``tip_path`` that the motion was led through.
         stops: At how many of them, ends left out, the arm stops.
@@ -57,6 +62,8 @@ class Plan:
         motion: Polynomial pieces over time.
         verdict: What the verifier says of ``motion``; None if it was never asked: then the motion is not safe to run.
         timings: Seconds spent in each stage.
+        evaluations: How many candidates the planner judged; None if it does not count them.
+        convergence: Evaluations made, and the best cost by then, each time that fell; None likewise.
     """
 
     scene: Scene
@@ -80,6 +87,8 @@ class Plan:
     motion: _core.Motion
     verdict: Verdict | None
     timings: dict[str, float]
+    evaluations: int | None = None
+    convergence: Sequence[tuple[int, float]] | None = None
 
     @property
     def gap(self) -> float | None:
@@ -101,8 +110,7 @@ class Plan:
     def at(self, t: Floats) -> Samples:
         """Return the motion at the instants ``t``, shape ``(n,)`` (s)."""
         q, v, a, j = self.motion.sample(t)
-        elbow, tip = self.scene.core.elbows_and_tips(q)
-        return Samples(t, q, v, a, j, elbow, tip)
+        return Samples(t, q, v, a, j, self.scene.core.link_ends(q))
 
 
 def only_task(scene: Scene, task: str | None) -> str:
@@ -120,10 +128,10 @@ def plan(
     scene: Scene,
     *,
     task: str | None = None,
-    planner: Planner = "dstar-pso",
+    planner: str = "dstar-pso",
+    options: Mapping[str, OwnOption] | None = None,
     objective: Objective = "tip",
     seed: int = 0,
-    candidates: int = 300,
     duration: float | None = None,
     gap: float | None = None,
     timeout: float | None = None,
@@ -131,17 +139,17 @@ def plan(
 ) -> Plan:
     """Return a plan whose motion is proved to be safe.
 
-    The path is over (place, posture): every step is certified free of contact, and the posture changes only through
-    full stretch or fold. The motion along it exists only because the verifier has accepted its polynomials.
+    The motion exists only because the verifier has accepted its polynomials. With two links the path is over
+    (place, posture): every step is certified free of contact, and the posture changes only through full stretch or
+    fold.
 
     Args:
         scene: Arm and obstacles.
         task: Which one; may be left out if there is only one.
-        planner: ``dstar-pso``, which chooses among the paths that a swarm draws; ``dstar``, the pointers alone; or
-            ``optimal``, which leaves the grid and pulls its paths taut.
+        planner: One of ``elbowroom.own_planners.OWN``.
+        options: Those of the planner that shall differ from its defaults, such as ``{"candidates": 100}``.
         objective: What the choice goes by: ``tip`` travel, ``joint`` travel or ``time``.
         seed: Of the swarm.
-        candidates: Paths the swarm draws.
         duration: How long the motion takes (s); None for as fast as the motion limits allow along the path.
         gap: For ``optimal``: go on until the cost is no more than this share above the lower bound, or the timeout, or
             nothing finer is left to try; the plan says what was reached.
@@ -152,11 +160,13 @@ def plan(
         UnknownTask: The scene has no such task.
         NotFree: Start or goal is not free.
         NoPath: It is proved that no motion does the task.
-        NotFound: The grid does not connect them; a finer one may.
+        NotFound: No path was found, at this resolution or in this budget; there may be one.
         TimedOut: The timeout came first.
-        BadSetting: A setting makes no sense, or the duration is too short for the motion limits.
+        BadSetting: A setting makes no sense, the planner does not serve this arm, or the duration is too short for the
+            motion limits.
     """
-    _check_counts(seed=seed, candidates=candidates)
+    _check_counts(seed=seed)
+    chosen_options = all_options(planner, options or {})
     if gap is not None and planner != "optimal":
         raise BadSetting(f"gap is for the planner optimal, not for {planner}", setting="gap")
     task = only_task(scene, task)
@@ -167,7 +177,7 @@ def plan(
             planner=planner,
             objective=objective,
             seed=seed,
-            candidates=candidates,
+            options=list(chosen_options.items()),
             duration=duration,
             gap=gap,
             timeout=timeout,
@@ -178,13 +188,12 @@ def plan(
     settings: dict[str, Any] = {"mode": "verified", "duration": "fastest" if duration is None else duration}
     if gap is not None:
         settings["gap"] = gap
-    if planner == "dstar-pso":
-        settings["candidates"] = candidates
+    evaluations, convergence = found.effort or (None, None)
     return Plan(
         scene=scene,
         task=task,
         planner=planner,
-        settings=settings,
+        settings={**settings, **chosen_options},
         seed=seed,
         objective=objective,
         cost=found.cost,
@@ -202,6 +211,8 @@ def plan(
         motion=found.motion,
         verdict=found.verdict(scene.core),
         timings=dict(found.timings),
+        evaluations=evaluations,
+        convergence=convergence,
     )
 
 

@@ -8,17 +8,13 @@ from typing import Any
 
 from elbowroom._core import TICK, __version__
 from elbowroom.plan import Plan
+from elbowroom.trajectory_files import RATES, columns_of
 
-COLUMNS = (
-    "time_s",
-    *(
-        f"{letter}{joint}_{unit}"
-        for letter, unit in (("q", "rad"), ("v", "rad_s"), ("a", "rad_s2"))
-        for joint in (1, 2)
-    ),
-    "x_m",
-    "y_m",
-)
+
+def columns(joints: int) -> list[str]:
+    """Return the columns of ``trajectory.csv`` for an arm of so many joints."""
+    rates = [name for letter, unit, _ in RATES for name in columns_of(joints, letter, unit)]
+    return ["time_s", *columns_of(joints), *rates, "x_m", "y_m"]
 
 
 def as_json(plan: Plan) -> dict[str, Any]:
@@ -52,6 +48,8 @@ def as_json(plan: Plan) -> dict[str, Any]:
         ],
         "verified": plan.verdict is not None and bool(plan.verdict["safe"]),
         "verdict": plan.verdict,
+        "evaluations": plan.evaluations,
+        "convergence": None if plan.convergence is None else [list(point) for point in plan.convergence],
         "timings_s": plan.timings,
     }
 
@@ -69,6 +67,7 @@ def write_plan(plan: Plan, folder: Path) -> list[Path]:
 def as_csv(plan: Plan) -> str:
     """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
     samples = plan.sample(period=TICK)
-    columns = [samples.t, *samples.q.T, *samples.v.T, *samples.a.T, *samples.tip.T]
-    rows = zip(*(column.tolist() for column in columns), strict=True)
-    return "\n".join([",".join(COLUMNS), *(",".join(map(repr, row)) for row in rows)]) + "\n"
+    values = [samples.t, *samples.q.T, *samples.v.T, *samples.a.T, *samples.tip.T]
+    rows = zip(*(column.tolist() for column in values), strict=True)
+    header = ",".join(columns(samples.q.shape[1]))
+    return "\n".join([header, *(",".join(map(repr, row)) for row in rows)]) + "\n"

@@ -10,25 +10,19 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any, Protocol, get_args
+from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
 
 from elbowroom._core import __version__
 from elbowroom.errors import BadSetting
+from elbowroom.own_planners import OWN, OwnOption, all_options
 from elbowroom.plan import Objective, Plan
-from elbowroom.plan import Planner as OwnName
 from elbowroom.plan import plan as own_plan
 from elbowroom.scene import Scene
 
 GROUP = "elbowroom.planners"
 """The entry point group of plug-ins."""
-
-OWN: tuple[str, ...] = get_args(OwnName)
-"""Names of elbowroom's own planners: the one list of them in Python."""
-
-BUDGET_AS = {"dstar-pso": "candidates"}
-"""Which keyword of ``elbowroom.plan`` takes the budget of evaluations, for planners that have one."""
 
 Option = str | int | float | bool
 
@@ -42,7 +36,7 @@ class Proposal:
         q: Configurations, shape ``(n, joints)`` (rad); a continuous joint counts on instead of jumping by a turn.
         v: Velocities, if known (rad/s): then the curve between rows is cubic, else linear.
         a: Accelerations, if known (rad/s²): then it is quintic.
-        evaluations: How many candidate paths the planner judged; None if it does not count them.
+        evaluations: How many candidates the planner judged; None if it does not count them.
         lower_bound: No motion costs less, in terms of the objective; None where unknown.
         timings: Seconds spent in each stage.
         convergence: Evaluations made, and the best cost by then, each time that fell; None where not recorded.
@@ -96,18 +90,28 @@ class OwnPlanner:
     name: str
 
     def __call__(
-        self, scene: Scene, task: str, *, seed: int, timeout: float | None, budget: int | None, objective: Objective
+        self,
+        scene: Scene,
+        task: str,
+        *,
+        seed: int,
+        timeout: float | None,
+        budget: int | None,
+        objective: Objective,
+        **options: OwnOption,
     ) -> Plan:
-        """Return the plan."""
-        limits: dict[str, Any] = {BUDGET_AS[self.name]: budget} if budget is not None and self.name in BUDGET_AS else {}
+        """Return the plan; a budget goes before the option that it stands for."""
+        limited_by = OWN[self.name].budget
+        if budget is not None and limited_by is not None:
+            options[limited_by] = budget
         return own_plan(
             scene,
             task=task,
-            planner=self.name,  # type: ignore[arg-type]
+            planner=self.name,
+            options=options,
             objective=objective,
             seed=seed,
             timeout=timeout,
-            **limits,
         )
 
 
@@ -121,11 +125,27 @@ class Choice:
     """All its options, defaults included; only those given if the plug-in cannot be loaded."""
     provider: str
     """Package and version, and the version that the planner states."""
+    owned: bool
+    """Whether it is one of elbowroom's own."""
 
     @property
     def label(self) -> str:
         """What tables call it; ``chosen`` reads it back."""
         return ":".join([self.name, *(f"{key}={_text(value)}" for key, value in sorted(self.given.items()))])
+
+    def settings_under(self, budget: int | None) -> Mapping[str, Option]:
+        """Return all its options where a run has this budget of evaluations, which one of them may stand for.
+
+        Raises:
+            BadSetting: That option was given too, as another number.
+        """
+        own = OWN[self.name] if self.owned else None
+        if budget is None or own is None or own.budget is None:
+            return self.settings
+        if self.given.get(own.budget, budget) != budget:
+            message = f"planner {self.label} has {own.budget} of its own and a budget of {budget}; one of the two"
+            raise BadSetting(message, setting="budget")
+        return {**self.settings, own.budget: budget}
 
 
 def known() -> list[str]:
@@ -144,7 +164,8 @@ def chosen(text: str) -> Choice:
     try:
         planner = load(name)
     except BrokenPlugin:
-        return Choice(name, dict(_pairs(name, assignments)), dict(_pairs(name, assignments)), _provider(point, None))
+        pairs = dict(_pairs(name, assignments))
+        return Choice(name, pairs, pairs, _provider(point, None), owned=False)
     defaults = _options(planner)
     given: dict[str, Option] = {}
     for key, value in _pairs(name, assignments):
@@ -154,7 +175,23 @@ def chosen(text: str) -> Choice:
         read = _read(value, defaults[key], f"option {key} of planner {name}")
         if read != defaults[key]:
             given[key] = read
-    return Choice(name, given, {**defaults, **given}, _provider(point, planner))
+    if point is None:
+        # Which words an option may be is for the core to say.
+        all_options(name, given)
+    return Choice(name, given, {**defaults, **given}, _provider(point, planner), owned=point is None)
+
+
+def own_chosen(text: str) -> Choice:
+    """Return the planner that ``text`` asks for, as ``chosen`` does, if it is one of elbowroom's own.
+
+    Raises:
+        BadSetting: It is none of them, or has no such option; the known ones are listed.
+    """
+    name = text.strip().partition(":")[0]
+    if name not in OWN:
+        why = f"{name} is a plug-in, for elbowroom compare" if _is_plugin(name) else f"no planner is called '{name}'"
+        raise BadSetting(f"{why}; known: {', '.join(OWN)}", setting="planner")
+    return chosen(text)
 
 
 def all_chosen(text: str) -> list[Choice]:
@@ -197,6 +234,10 @@ def _plugins() -> Iterable[EntryPoint]:
     return entry_points(group=GROUP)
 
 
+def _is_plugin(name: str) -> bool:
+    return any(point.name == name for point in _plugins())
+
+
 def _point(name: str) -> EntryPoint | None:
     """The entry point of a plug-in, or None for one of our own."""
     points = {(point.value, _package(point)): point for point in _plugins() if point.name == name}
@@ -219,6 +260,8 @@ def _provider(point: EntryPoint | None, planner: PlannerPlugin | None) -> str:
 
 
 def _options(planner: PlannerPlugin) -> dict[str, Option]:
+    if isinstance(planner, OwnPlanner):
+        return dict(OWN[planner.name].options)
     try:
         parameters = inspect.signature(planner).parameters.values()
     except (TypeError, ValueError):

@@ -24,6 +24,11 @@ LARGEST_FILE = 256 * 1024 * 1024
 RATES = (("v", "rad_s", "velocities"), ("a", "rad_s2", "accelerations"))
 
 
+def columns_of(joints: int, letter: str = "q", unit: str = "rad") -> list[str]:
+    """Return the names of a CSV's columns for so many joints: their positions, or another rate."""
+    return [f"{letter}{joint}_{unit}" for joint in range(1, joints + 1)]
+
+
 @dataclass(frozen=True, eq=False)
 class TrajectorySamples:
     """Times (s) and joint positions, velocities and accelerations at them; None where the file has none."""
@@ -34,11 +39,16 @@ class TrajectorySamples:
     a: Floats | None
 
 
-def read_trajectory(path: Path, *, joints: tuple[str, str] | None = None) -> TrajectorySamples:
+def read_trajectory(path: Path, *, joints: int, names: Sequence[str] | None = None) -> TrajectorySamples:
     """Return the trajectory in the file at ``path``: CSV, or a JSON or YAML dump of a JointTrajectory.
 
+    Args:
+        path: Of the file.
+        joints: How many the arm has.
+        names: Of the joints in a JointTrajectory, base first, where they do not end in 1, 2, ...
+
     Raises:
-        TrajectoryError: The file cannot be read or is no trajectory; the message leaves out its name.
+        TrajectoryError: The file cannot be read or is no trajectory of such an arm; the message leaves out its name.
     """
     try:
         if path.stat().st_size > LARGEST_FILE:
@@ -51,19 +61,31 @@ def read_trajectory(path: Path, *, joints: tuple[str, str] | None = None) -> Tra
     if not text.strip():
         raise TrajectoryError("the file is empty")
     if path.suffix.lower() in (".json", ".yaml", ".yml"):
-        return _joint_trajectory(_document(text, path), joints)
-    return _table(text)
+        return _joint_trajectory(_document(text, path), joints, names)
+    return _table(text, joints)
 
 
-def _table(text: str) -> TrajectorySamples:
+def _table(text: str, joints: int) -> TrajectorySamples:
     rows = [row for row in csv.reader(io.StringIO(text)) if row]
     header, body = [name.strip() for name in rows[0]], rows[1:]
-    needed = ["time_s", "q1_rad", "q2_rad"]
-    known = {*needed, "x_m", "y_m", *(f"{letter}{j}_{unit}" for letter, unit, _ in RATES for j in (1, 2))}
+    needed = ["time_s", *columns_of(joints)]
+    known = {*needed, "x_m", "y_m", *(name for letter, unit, _ in RATES for name in columns_of(joints, letter, unit))}
     if missing := [name for name in needed if name not in header]:
-        raise TrajectoryError(f"column {missing[0]} is missing; found {', '.join(header)[:100]}")
+        raise TrajectoryError(
+            f"column {missing[0]} is missing, the arm has {joints} joints; found {', '.join(header)[:100]}"
+        )
+    beyond = [name for name in header if (m := re.match(r"[qva]([1-9]\d{0,8})_", name)) and int(m[1]) > joints]
+    if beyond:
+        raise TrajectoryError(f"column {beyond[0]} is of a joint too many: the arm has {joints} joints")
     if unknown := [name for name in header if name not in known]:
-        raise TrajectoryError(f"no such column: {unknown[0]}; known are {', '.join(sorted(known))}")
+        raise TrajectoryError(
+            f"no such column: {unknown[0]}; known for an arm of {joints} joints are time_s, "
+            + ", ".join(
+                f"{letter}1_{unit} to {letter}{joints}_{unit}"
+                for letter, unit in (("q", "rad"), *(rate[:2] for rate in RATES))
+            )
+            + ", x_m, y_m"
+        )
     if len(set(header)) != len(header):
         raise TrajectoryError("a column comes twice")
     values = np.empty((len(body), len(header)))
@@ -76,7 +98,7 @@ def _table(text: str) -> TrajectorySamples:
             raise TrajectoryError(f"row {i + 1} has a cell that is no number") from None
 
     def columns(letter: str, unit: str) -> Floats | None:
-        names = [f"{letter}{j}_{unit}" for j in (1, 2)]
+        names = columns_of(joints, letter, unit)
         there = [name in header for name in names]
         if not any(there):
             return None
@@ -87,8 +109,8 @@ def _table(text: str) -> TrajectorySamples:
     velocities, accelerations = (columns(letter, unit) for letter, unit, _ in RATES)
     if velocities is None and accelerations is not None:
         raise TrajectoryError("columns of accelerations without columns of velocities")
-    time, first, second = (values[:, header.index(name)] for name in needed)
-    return TrajectorySamples(time, np.column_stack([first, second]), velocities, accelerations)
+    time, *positions = (values[:, header.index(name)] for name in needed)
+    return TrajectorySamples(time, np.column_stack(positions), velocities, accelerations)
 
 
 def _document(text: str, path: Path) -> Any:
@@ -107,24 +129,24 @@ def _document(text: str, path: Path) -> Any:
         raise TrajectoryError(f"not YAML: {' '.join(str(error).split())[:200]}") from None
 
 
-def _joint_trajectory(document: Any, joints: tuple[str, str] | None) -> TrajectorySamples:
+def _joint_trajectory(document: Any, joints: int, names: Sequence[str] | None) -> TrajectorySamples:
     for wrapper in ("trajectory", "joint_trajectory"):
         if isinstance(document, Mapping) and wrapper in document and "points" not in document:
             document = document[wrapper]
     if not (isinstance(document, Mapping) and "joint_names" in document and "points" in document):
         raise TrajectoryError("no JointTrajectory: joint_names and points are needed")
-    order = _order(document["joint_names"], joints)
+    order = _order(document["joint_names"], joints, names)
     points = document["points"]
     if not isinstance(points, Sequence) or isinstance(points, str) or not points:
         raise TrajectoryError("points is not a list of at least one point")
     times = np.array([_time(point, i) for i, point in enumerate(points)])
-    positions = np.array([_values(point, i, "positions") for i, point in enumerate(points)])
+    positions = np.array([_values(point, i, "positions", joints) for i, point in enumerate(points)])
     rates: list[Floats | None] = []
     for _, _, name in RATES:
         there = [bool(point.get(name)) for point in points]
         if any(there) and not all(there):
             raise TrajectoryError(f"point {there.index(False) + 1} has no {name}, others have")
-        values = [_values(point, i, name) for i, point in enumerate(points)] if all(there) else None
+        values = [_values(point, i, name, joints) for i, point in enumerate(points)] if all(there) else None
         rates.append(None if values is None else np.array(values)[:, order])
     velocities, accelerations = rates
     if velocities is None and accelerations is not None:
@@ -132,21 +154,23 @@ def _joint_trajectory(document: Any, joints: tuple[str, str] | None) -> Trajecto
     return TrajectorySamples(times, positions[:, order], velocities, accelerations)
 
 
-def _order(names: Any, joints: tuple[str, str] | None) -> list[int]:
-    """Where the joint at the base and the next one are in the lists of the file."""
+def _order(names: Any, joints: int, asked: Sequence[str] | None) -> list[int]:
+    """Where the joint at the base and those after it are in the lists of the file."""
     if not (isinstance(names, Sequence) and all(isinstance(name, str) for name in names)) or isinstance(names, str):
         raise TrajectoryError("joint_names is not a list of names")
-    if len(names) != 2:
-        raise TrajectoryError(f"{len(names)} joint names; an arm of 2 joints has 2")
-    if joints is not None:
-        if sorted(joints) != sorted(names):
-            raise TrajectoryError(f"joint names are {', '.join(names)}; asked for were {', '.join(joints)}")
-        return [names.index(joint) for joint in joints]
-    stems = [re.fullmatch(r"(.*?)0*([12])(\D*)", name) for name in names]
-    if all(stems) and {m[2] for m in stems if m} == {"1", "2"} and len({(m[1], m[3]) for m in stems if m}) == 1:
-        return sorted(range(2), key=lambda i: stems[i][2])  # type: ignore[index]
+    if len(names) != joints:
+        raise TrajectoryError(f"{len(names)} joint names; the arm has {joints} joints")
+    if asked is not None:
+        if sorted(asked) != sorted(names):
+            raise TrajectoryError(f"joint names are {', '.join(names)}; asked for were {', '.join(asked)}")
+        return [names.index(joint) for joint in asked]
+    stems = [m for name in names if (m := re.fullmatch(r"(.*?)0*([1-9]\d{0,8})(\D*)", name))]
+    numbers = [int(m[2]) for m in stems]
+    if sorted(numbers) == list(range(1, joints + 1)) and len({(m[1], m[3]) for m in stems}) == 1:
+        return sorted(range(joints), key=lambda i: numbers[i])
     raise TrajectoryError(
         f"joint names are {', '.join(names)}: which is at the base? Name them, base first: --joints FIRST,SECOND"
+        + ",..." * (joints > 2)
     )
 
 
@@ -166,12 +190,12 @@ def _time(point: Any, index: int) -> float:
         raise TrajectoryError(f"point {index + 1} has no time_from_start with sec and nanosec") from None
 
 
-def _values(point: Any, index: int, name: str) -> list[float]:
+def _values(point: Any, index: int, name: str, joints: int) -> list[float]:
     values = point.get(name)
     try:
         numbers = [float(value) for value in values]
     except (TypeError, ValueError, OverflowError):
         raise TrajectoryError(f"point {index + 1} has no list of numbers as {name}") from None
-    if len(numbers) != 2:
-        raise TrajectoryError(f"point {index + 1} has {len(numbers)} {name} for 2 joints")
+    if len(numbers) != joints:
+        raise TrajectoryError(f"point {index + 1} has {len(numbers)} {name} for {joints} joints")
     return numbers

@@ -25,7 +25,7 @@ mod _core {
     #[pymodule_export]
     use super::paper::{PaperPlan, plan_as_in_paper};
     #[pymodule_export]
-    use super::plan::{Plan, plan, planners_known};
+    use super::plan::{Plan, plan, planner_options, planners_known};
     #[pymodule_export]
     use super::scene::{Scene, SceneFile};
 

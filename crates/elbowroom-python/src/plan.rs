@@ -124,17 +124,38 @@ impl From<OptionPart> for OptionValue {
 pub(crate) fn planners_known(
     py: Python<'_>,
 ) -> PyResult<Vec<(&'static str, Bound<'_, PyDict>, Option<&'static str>)>> {
-    let known = |planner: &Planner| {
-        let options = PyDict::new(py);
-        for (name, value) in planner.options() {
-            match value {
-                OptionValue::Count(count) => options.set_item(name, count)?,
-                OptionValue::Word(word) => options.set_item(name, word)?,
-            }
-        }
-        Ok((planner.name(), options, planner.budget()))
-    };
+    let known = |planner: &Planner| Ok((planner.name(), options_of(py, planner)?, planner.budget()));
     Planner::all().iter().map(known).collect()
+}
+
+/// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.
+///
+/// Raises:
+///     BadSetting: There is no such planner, option or value.
+#[pyfunction]
+pub(crate) fn planner_options<'py>(
+    py: Python<'py>,
+    planner: &str,
+    options: Vec<(String, OptionPart)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    options_of(py, &by_name(py, planner, options)?)
+}
+
+fn options_of<'py>(py: Python<'py>, planner: &Planner) -> PyResult<Bound<'py, PyDict>> {
+    let options = PyDict::new(py);
+    for (name, value) in planner.options() {
+        match value {
+            OptionValue::Count(count) => options.set_item(name, count)?,
+            OptionValue::Word(word) => options.set_item(name, word)?,
+        }
+    }
+    Ok(options)
+}
+
+fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) -> PyResult<Planner> {
+    let options: Vec<(String, OptionValue)> =
+        options.into_iter().map(|(name, value)| (name, value.into())).collect();
+    Planner::by_name(planner, &options).map_err(|error| errors::setting(py, "planner", &error.to_string()))
 }
 
 /// Return a plan for the task called ``task``.
@@ -173,10 +194,7 @@ pub(crate) fn plan(
                 &format!("no objective is called '{objective}'; tip, joint or time"),
             )
         })?;
-    let options: Vec<(String, OptionValue)> =
-        options.into_iter().map(|(name, value)| (name, value.into())).collect();
-    let planner = Planner::by_name(planner, &options)
-        .map_err(|error| errors::setting(py, "planner", &error.to_string()))?;
+    let planner = by_name(py, planner, options)?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
     let settings = PlanSettings { planner, objective, pace, seed, gap };
     let work = |watch: &watch::Watch| planners::plan(&scene.scene, asked, &settings, watch);

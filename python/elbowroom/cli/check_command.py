@@ -14,7 +14,7 @@ def check_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     file: Annotated[Path, typer.Argument(help="Trajectory: our CSV, or a JointTrajectory as JSON or YAML.")],
     joints: Annotated[
-        str | None, typer.Option(help="Names of the joints in the file, base first: FIRST,SECOND.")
+        str | None, typer.Option(help="Names of the joints in the file, base first: FIRST,SECOND,...")
     ] = None,
     margin: Annotated[float, typer.Option(help="Clearance to keep (m).")] = 0.0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
@@ -29,10 +29,11 @@ def check_command(
         from elbowroom.errors import BadSetting
         from elbowroom.scene import Scene
 
-        names = tuple(joints.split(",")) if joints is not None else None
-        if names is not None and len(names) != 2:
-            raise BadSetting(f"--joints names {len(names)} joints; an arm of 2 joints has 2", setting="joints")
+        names = joints.split(",") if joints is not None else None
         loaded = Scene.load(scene)
+        number = len(loaded.arm.joints)
+        if names is not None and len(names) != number:
+            raise BadSetting(f"--joints names {len(names)}; the arm of {scene} has {number} joints", setting="joints")
         result = check_file(loaded, file, joints=names, margin=margin, timeout=timeout)
         if as_json:
             typer.echo(json.dumps({"curve": result.curve, **result.verdict}, allow_nan=False))

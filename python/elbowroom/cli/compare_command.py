@@ -42,7 +42,8 @@ def compare_command(
 
         from elbowroom.compare import compare
         from elbowroom.compare.report import write_report
-        from elbowroom.planners import OWN, all_chosen
+        from elbowroom.own_planners import OWN
+        from elbowroom.planners import all_chosen
 
         choices = all_chosen(",".join(OWN) if planners is None else planners)
         with _goes_on(out), _progress() as (count, say):

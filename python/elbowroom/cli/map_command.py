@@ -20,10 +20,18 @@ def map_command(
         import json
 
         from elbowroom.cli.progress import progress
+        from elbowroom.errors import BadSetting
         from elbowroom.free_space import free_space
         from elbowroom.scene import Scene
 
         loaded = Scene.load(scene)
+        links = len(loaded.arm.links)
+        if links != 2:
+            raise BadSetting(
+                f"{scene}: maps are per posture, which only arms of 2 links have; this one has {links}: "
+                "plan, check and compare take it",
+                setting="arm",
+            )
         with progress() as show:
             show("free_space")
             space = free_space(loaded)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.own_planners import OWN
 
 if TYPE_CHECKING:
     from elbowroom.plan import Plan
@@ -18,7 +19,9 @@ if TYPE_CHECKING:
 def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
-    planner: Annotated[str, typer.Option(help="dstar-pso, dstar or optimal.")] = "dstar-pso",
+    planner: Annotated[
+        str, typer.Option(help=f"{', '.join(OWN)}; options as NAME:OPTION=VALUE:OPTION=VALUE.")
+    ] = "dstar-pso",
     objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
     seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
@@ -41,9 +44,11 @@ def plan_command(
         from elbowroom.plan import plan as make_plan
         from elbowroom.plan_files import as_json as document
         from elbowroom.plan_files import write_plan
+        from elbowroom.planners import own_chosen
         from elbowroom.scene import Scene
 
         seconds = _seconds(duration)
+        choice = own_chosen(planner)
         if animate and out is None:
             raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
         loaded = Scene.load(scene)
@@ -52,7 +57,8 @@ def plan_command(
                 lambda: make_plan(
                     loaded,
                     task=task,
-                    planner=planner,  # type: ignore[arg-type]
+                    planner=choice.name,
+                    options=choice.given,  # type: ignore[arg-type]
                     objective=objective,  # type: ignore[arg-type]
                     seed=seed,
                     timeout=timeout,
@@ -64,17 +70,21 @@ def plan_command(
                 out,
             )
             written: list[Path] = []
+            left_out: str | None = None
             if out is not None:
-                from elbowroom.cli.plan_pictures import draw
+                from elbowroom.cli.plan_pictures import draw, not_drawn
 
                 show("drawing")
                 written = [*write_plan(plan, out), *draw(plan, out, animate=animate)]
+                left_out = not_drawn(plan)
         if as_json:
             typer.echo(json.dumps(document(plan), allow_nan=False))
             return
         typer.echo(in_words(plan))
         for path in written:
             typer.echo(f"wrote {path}")
+        if left_out is not None:
+            typer.echo(left_out)
 
 
 def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:

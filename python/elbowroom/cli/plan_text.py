@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import math
 
+from elbowroom.numbered import numbered
 from elbowroom.plan import Plan
-from elbowroom.verdict import Verdict
+from elbowroom.verdict import LeastClearance, Verdict
+
+MOST_STOPS = 3
+"""With more joints that have stops than this, only the one nearest to a stop gets a line."""
 
 UNITS = {"tip": "m of tip travel", "joint": "rad of joint travel", "time": "s"}
 
@@ -33,16 +37,23 @@ def in_words(plan: Plan) -> str:
 
 def _assumed(plan: Plan) -> str:
     """What was assumed, joints with the same limit together."""
-    joints: dict[tuple[str, float], list[str]] = {}
+    joints: dict[tuple[str, float], list[int]] = {}
     for joint, rate, value in plan.assumed_limits:
-        joints.setdefault((rate, value), []).append(str(joint))
+        joints.setdefault((rate, value), []).append(joint)
     return ", ".join(
-        f"{rate} {math.degrees(value):g} {UNIT_OF_RATE[rate]} (joint {' and '.join(numbers)})"
+        f"{rate} {math.degrees(value):g} {UNIT_OF_RATE[rate]} ({numbered('joint', numbers)})"
         for (rate, value), numbers in joints.items()
     )
 
 
 UNIT_OF_RATE = {"velocity": "deg/s", "acceleration": "deg/s²", "jerk": "deg/s³"}
+
+
+def _against(nearest: LeastClearance) -> str:
+    if "other_link" in nearest:
+        return f"link {nearest['other_link']}"
+    name = nearest["name"]
+    return f"obstacle {nearest['obstacle']}" + (f" ({name})" if name else "")
 
 
 def verdict_lines(verdict: Verdict) -> list[str]:
@@ -51,16 +62,16 @@ def verdict_lines(verdict: Verdict) -> list[str]:
     lines += [f"  {violation['message']}" for violation in verdict["violations"]]
     nearest = verdict["least_clearance"]
     if nearest is not None:
-        name = f" ({nearest['name']})" if nearest["name"] else ""
         lines.append(
             f"  least clearance {nearest['distance'] * 1e3:.4f} mm at {nearest['time']:.3f} s, "
-            f"link {nearest['link']} and obstacle {nearest['obstacle']}{name}"
+            f"link {nearest['link']} and {_against(nearest)}"
         )
-    for joint, margin in enumerate(verdict["joint_margins"], 1):
-        if margin is not None:
-            lines.append(
-                f"  joint {joint} comes within {math.degrees(margin[0]):.3f} deg of a stop at {margin[1]:.3f} s"
-            )
+    stops = [(margin, joint) for joint, margin in enumerate(verdict["joint_margins"], 1) if margin is not None]
+    for margin, joint in stops if len(stops) <= MOST_STOPS else [min(stops)]:
+        others = "" if len(stops) <= MOST_STOPS else f", the {len(stops) - 1} others keep farther off"
+        lines.append(
+            f"  joint {joint} comes within {math.degrees(margin[0]):.3f} deg of a stop at {margin[1]:.3f} s{others}"
+        )
     changes = verdict["posture_changes"]
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 WORDS = {
     "free_space": "mapping the free space",
     "cost_to_go": "cost-to-go by D*",
+    "bound": "bounding the cost from below",
     "tip_path": "drawing paths",
     "joint_path": "following with the joints",
     "trajectory": "timing the motion",
@@ -25,4 +26,4 @@ def progress() -> Iterator[Callable[[str], None]]:
     from rich.console import Console
 
     with Console(stderr=True).status("starting") as status:
-        yield lambda stage: status.update(WORDS.get(stage, stage))
+        yield lambda stage: status.update(WORDS.get(stage, stage.replace("_", " ")))

@@ -55,6 +55,9 @@ def misses(scene: Scene, task: str, motion: Motion, verdict: Verdict) -> str | N
     for name, place, at in (("start", asked.start, q[0]), ("goal", asked.goal, q[1])):
         if away := _away(scene, place, at):
             return f"the motion is {away} from the {name}"
+    if q.shape[1] != 2:
+        # Postures are those of two links.
+        return None
     bend = math.remainder(float(q[1][1]), math.tau)
     if asked.posture == "up" and bend > NEAR_ENOUGH:
         return "the motion ends elbow-down, the task asks for elbow-up"
@@ -73,6 +76,6 @@ def _away(scene: Scene, place: Place, q: np.ndarray[tuple[int], np.dtype[np.floa
         ]
         farthest = max(map(abs, turns))
         return f"{farthest:.6g} rad" if farthest > NEAR_ENOUGH else None
-    tip = scene.core.elbows_and_tips(np.ascontiguousarray(q[None]))[1][0]
+    tip = scene.core.link_ends(np.ascontiguousarray(q[None]))[0, -1]
     distance = math.dist(tip, place)
     return f"{distance:.6g} m" if distance > NEAR_ENOUGH else None

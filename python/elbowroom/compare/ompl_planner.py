@@ -148,7 +148,8 @@ class _WholeMotions(ob.MotionValidator):  # type: ignore[misc]
         for j, joint in enumerate(self.scene.arm.joints):
             if joint.continuous:
                 turn[j] = math.remainder(turn[j], math.tau)
-        # No point of the arm moves farther than this: each joint swings the links from it on.
+        # No point of the arm moves farther than this, nor farther as seen from another link: each joint swings the
+        # links from it on.
         reach = float(np.abs(turn) @ np.cumsum(np.asarray(self.scene.arm.links)[::-1])[::-1])
         at = 0.0
         while (near := clearance(self.scene, q + at * turn)) > NEAREST:
@@ -159,8 +160,8 @@ class _WholeMotions(ob.MotionValidator):  # type: ignore[misc]
 
 
 def clearance(scene: Scene, q: Floats) -> float:
-    """Return how far the arm is from the nearest obstacle (m)."""
-    return float(scene.core.link_clearances(q[None]).min(initial=math.inf))
+    """Return how far the arm is from the nearest obstacle, and from itself where that counts (m)."""
+    return float(min(scene.core.link_clearances(q[None]).min(), scene.core.self_clearances(q[None])[0]))
 
 
 def configurations(scene: Scene, place: Place, posture: str = "any") -> list[Floats]:

@@ -73,13 +73,17 @@ class Problem:
         timeout: float | None,
         objective: Objective,
     ) -> Problem:
-        """Return the run of ``choice`` on the scene file ``scene`` with that ``content``."""
+        """Return the run of ``choice`` on the scene file ``scene`` with that ``content``.
+
+        Raises:
+            BadSetting: The budget, and an option that stands for it, are given as different numbers.
+        """
         return cls(
             scene=scene,
             scene_sha256=hashlib.sha256(content).hexdigest(),
             task=task,
             planner=choice.label,
-            settings=choice.settings,
+            settings=choice.settings_under(budget),
             seed=seed,
             budget=budget,
             timeout_s=timeout,
@@ -114,8 +118,8 @@ class Row(Problem):
         tip_length_m: How far the tip travels.
         joint_travel_rad: Length of the curve in the space of the joints.
         duration_s: How long the motion takes.
-        least_clearance_m: The nearest that a link comes to an obstacle.
-        evaluations: Candidate paths that the planner judged, where it counts them.
+        least_clearance_m: The nearest that a link comes to an obstacle, or to a link it has to keep clear of.
+        evaluations: Candidates that the planner judged, where it counts them.
         lower_bound: No motion costs less.
         gap: How far ``cost`` may be above the best, as a share of it.
         failure: A key of ``FAILURES``.

@@ -67,8 +67,7 @@ def _judged(problem: Problem, scene: Scene, answer: Any, begun: float) -> Row:
     asked = perf_counter()
     if isinstance(answer, Plan) and answer.verdict is not None:
         motion, verdict, stages = answer.motion, answer.verdict, dict(answer.timings)
-        # Planners that count evaluations say so in attributes of their plans.
-        evaluations, convergence = getattr(answer, "evaluations", None), getattr(answer, "convergence", None)
+        evaluations, convergence = answer.evaluations, answer.convergence
     elif isinstance(answer, Proposal):
         stages = {str(stage): float(seconds) for stage, seconds in answer.timings.items()}
         evaluations, convergence = answer.evaluations, answer.convergence

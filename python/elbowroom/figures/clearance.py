@@ -5,18 +5,27 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from elbowroom.figures.style import INK, LINK_1, LINK_2, new_figure
+from elbowroom.figures.links import link_colours
+from elbowroom.figures.style import DASHES, INK, legend_beside, new_figure
 from elbowroom.plan import Plan
 
 
 def clearance_curve(plan: Plan) -> Figure:
-    """Return the clearance of each link over time, with the least one that the verifier found."""
-    figure, axes = new_figure(width=6.4, height=3.4)
+    """Return the clearance of each link over time, that between links where they have to keep clear of each other, and
+    the least one that the verifier found.
+    """
+    links = len(plan.scene.arm.links)
+    figure, axes = new_figure(width=6.4 if links == 2 else 7.4, height=3.4 if links <= 8 else 4.2)
     t = np.linspace(0.0, plan.motion.duration, 4001)
-    clearance = plan.scene.core.link_clearances(plan.at(t).q) * 1e3
-    for link, colour, style in ((0, LINK_1, "-"), (1, LINK_2, "--")):
+    q = plan.at(t).q
+    clearance = plan.scene.core.link_clearances(q) * 1e3
+    for link, colour in enumerate(link_colours(links)):
         if np.isfinite(clearance[:, link]).any():
-            axes.plot(t, clearance[:, link], color=colour, linestyle=style, linewidth=1.8, label=f"link {link + 1}")
+            dash = DASHES[link % len(DASHES)]
+            axes.plot(t, clearance[:, link], color=colour, linestyle=dash, linewidth=1.8, label=f"link {link + 1}")
+    between = plan.scene.core.self_clearances(q) * 1e3
+    if np.isfinite(between).any():
+        axes.plot(t, between, color=INK, linestyle=(0, (1, 1)), linewidth=2.2, label="between links")
     least = plan.verdict["least_clearance"] if plan.verdict else None
     if least is not None:
         axes.plot(
@@ -36,5 +45,5 @@ def clearance_curve(plan: Plan) -> Figure:
     axes.set_title(f"task '{plan.task}': clearance of the links", fontsize=11)
     axes.set_xlim(0.0, plan.motion.duration or 1.0)
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=9, frameon=False)
+    legend_beside(axes)
     return figure

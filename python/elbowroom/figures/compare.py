@@ -10,12 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from elbowroom.figures.style import GOAL, INK, LINK_1, LINK_2, PATH, SMOOTHED, START
-
-COLOURS = (PATH, START, LINK_2, SMOOTHED, GOAL, LINK_1, "#999999")
-"""In this order neighbours differ most in lightness too."""
-
-DASHES = ("-", "--", ":", "-.")
+from elbowroom.figures.style import COLOURS, DASHES, INK
 
 Curve = Sequence[Sequence[float]]
 """Evaluations made and the best cost by then, ascending."""

@@ -8,6 +8,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
+from elbowroom.errors import BadSetting
 from elbowroom.figures.style import COLLISION, GOAL, INK, LIMIT, SMOOTHED, START, new_figure
 from elbowroom.plan import Plan
 from elbowroom.scene import Joint, Scene
@@ -17,7 +18,15 @@ POINTS = 361
 
 
 def configuration_space(plan: Plan) -> Figure:
-    """Return theta 1 and theta 2 with the configurations in contact, the stops, and the motion through them."""
+    """Return theta 1 and theta 2 with the configurations in contact, the stops, and the motion through them.
+
+    Raises:
+        BadSetting: The arm does not have two links.
+    """
+    links = len(plan.scene.arm.links)
+    if links != 2:
+        message = f"the configuration space is drawn of arms of 2 links; this one has {links}"
+        raise BadSetting(message, setting="arm")
     samples = plan.at(np.linspace(0.0, plan.motion.duration, 4001))
     ranges = [shown_range(joint, samples.q[:, j]) for j, joint in enumerate(plan.scene.arm.joints)]
     figure, axes = new_figure(width=7.4, height=5.4)

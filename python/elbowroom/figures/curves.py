@@ -2,24 +2,52 @@
 
 from __future__ import annotations
 
+from itertools import cycle, islice
+
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from elbowroom.figures.style import CM, INK, LINK_1, LINK_2, PATH, SMOOTHED, new_figure
+from elbowroom.errors import BadSetting
+from elbowroom.figures.style import (
+    CM,
+    COLOURS,
+    DASHES,
+    INK,
+    LINK_1,
+    LINK_2,
+    PATH,
+    SMOOTHED,
+    legend_beside,
+    new_figure,
+)
+from elbowroom.numbered import numbered
 from elbowroom.plan import Floats, Plan
 from elbowroom.scene import Joint
 
-CURVES = {
-    "x": ("x of the tip (cm)", PATH),
-    "y": ("y of the tip (cm)", SMOOTHED),
-    "theta 1": ("theta 1 (deg)", LINK_1),
-    "theta 2": ("theta 2 (deg)", LINK_2),
-}
+ROWS = 12
+"""Entries in a column of the legend beside a panel."""
+
+
+def joint_lines(joints: int) -> list[tuple[str, str]]:
+    """Return a colour and a dash for each joint; all differ for up to 28."""
+    if joints == 2:
+        return [(LINK_1, "-"), (LINK_2, "--")]
+    return list(islice(zip(cycle(COLOURS), cycle(DASHES), strict=False), joints))
 
 
 def tip_curve(plan: Plan, *, of: str) -> Figure:
-    """Return ``x``, ``y``, ``theta 1`` or ``theta 2`` over time, the via points marked."""
-    label, colour = CURVES[of]
+    """Return ``x``, ``y``, or the angle of a joint, such as ``theta 1``, over time, the via points marked.
+
+    Raises:
+        BadSetting: There is no such curve.
+    """
+    tips = {"x": ("x of the tip (cm)", PATH), "y": ("y of the tip (cm)", SMOOTHED)}
+    lines = joint_lines(len(plan.scene.arm.joints))
+    angles = {f"theta {j}": (f"theta {j} (deg)", colour) for j, (colour, _) in enumerate(lines, 1)}
+    if of not in tips | angles:
+        raise BadSetting(f"no curve is called '{of}'; x, y, theta 1 to theta {len(angles)}", setting="of")
+    label, colour = (tips | angles)[of]
     figure, axes = new_figure(width=6.4, height=3.4)
     t = np.linspace(0.0, plan.motion.duration, 2001)
     times = np.append(plan.motion.starts, plan.motion.duration)
@@ -46,38 +74,52 @@ def tip_curve(plan: Plan, *, of: str) -> Figure:
 
 
 def joint_curves(plan: Plan) -> Figure:
-    """Return position, velocity, acceleration and jerk of both joints over time, with their limits drawn."""
-    figure = Figure(figsize=(7.4, 8.4), layout="constrained")
+    """Return position, velocity, acceleration and jerk of all joints over time, with their limits drawn."""
+    joints = len(plan.scene.arm.joints)
+    figure = Figure(figsize=(7.4 + 0.9 * ((joints - 1) // ROWS), 8.4), layout="constrained")
     t = np.linspace(0.0, plan.motion.duration, 4001)
     samples = plan.at(t)
-    rows = (
+    panels = (
         (samples.q, "position (deg)", "position"),
         (samples.v, "velocity (deg/s)", "velocity"),
         (samples.a, "acceleration (deg/s²)", "acceleration"),
         (samples.j, "jerk (deg/s³)", "jerk"),
     )
-    for i, (values, label, rate) in enumerate(rows):
+    for i, (values, label, rate) in enumerate(panels):
         axes = figure.add_subplot(4, 1, i + 1)
-        for j, colour, style in ((0, LINK_1, "-"), (1, LINK_2, "--")):
-            axes.plot(t, np.degrees(values[:, j]), color=colour, linestyle=style, label=f"joint {j + 1}")
-            limits, assumed = _limits(plan, j, rate)
-            for k, limit in enumerate(limits):
-                axes.axhline(
-                    np.degrees(limit),
-                    color=colour,
-                    linewidth=1.0,
-                    linestyle=":" if assumed else (0, (6, 2)),
-                    alpha=0.8,
-                    label=f"limit of joint {j + 1}{' (assumed)' if assumed else ''}" if k == 0 else None,
-                )
+        for j, (colour, dash) in enumerate(joint_lines(joints)):
+            name = f"joint {j + 1}" if i == 0 else None
+            axes.plot(t, np.degrees(values[:, j]), color=colour, linestyle=dash, label=name)
+        _draw_limits(axes, plan, rate)
         axes.set_ylabel(label)
         axes.set_xlim(0.0, plan.motion.duration or 1.0)
         axes.grid(alpha=0.3)
-        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=8, frameon=False)
+        if axes.get_legend_handles_labels()[0]:
+            legend_beside(axes, size=8, rows=ROWS)
         if i == 0:
             axes.set_title(f"task '{plan.task}': joints over time", fontsize=11)
     axes.set_xlabel("time (s)")
     return figure
+
+
+def _draw_limits(axes: Axes, plan: Plan, rate: str) -> None:
+    """Draw the limits on ``rate``, one pair of lines for joints that have the same."""
+    groups: dict[tuple[tuple[float, ...], bool], list[int]] = {}
+    for j in range(len(plan.scene.arm.joints)):
+        limits, assumed = _limits(plan, j, rate)
+        groups.setdefault((tuple(limits), assumed), []).append(j)
+    lines = joint_lines(len(plan.scene.arm.joints))
+    for (values, assumed), alike in groups.items():
+        whose = numbered("joint", [j + 1 for j in alike])
+        for k, value in enumerate(values):
+            axes.axhline(
+                np.degrees(value),
+                color=lines[alike[0]][0] if len(alike) == 1 else INK,
+                linewidth=1.0,
+                linestyle=":" if assumed else (0, (6, 2)),
+                alpha=0.8,
+                label=f"limit of {whose}{' (assumed)' if assumed else ''}" if k == 0 else None,
+            )
 
 
 def _limits(plan: Plan, j: int, rate: str) -> tuple[list[float], bool]:
@@ -99,5 +141,5 @@ def _values(plan: Plan, of: str, t: Floats) -> Floats:
     if of in ("x", "y"):
         values: Floats = samples.tip[:, "xy".index(of)] * CM
         return values
-    angles: Floats = np.degrees(samples.q[:, int(of[-1]) - 1])
+    angles: Floats = np.degrees(samples.q[:, int(of.removeprefix("theta ")) - 1])
     return angles

@@ -5,21 +5,9 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
-from elbowroom.figures.style import (
-    CM,
-    FREE,
-    INK,
-    LINK_1,
-    LINK_2,
-    PATH,
-    SMOOTHED,
-    legend_beside,
-    mark_base,
-    mark_ends,
-    plane,
-)
+from elbowroom.figures.links import draw_stills, link_legend
+from elbowroom.figures.style import CM, FREE, INK, PATH, SMOOTHED, legend_beside, mark_base, mark_ends, plane
 from elbowroom.free_space import FreeSpace
 from elbowroom.plan import Floats, Plan
 
@@ -27,12 +15,16 @@ STILLS = 25
 """How many times the arm is drawn along its motion."""
 
 
-def tip_path(plan: Plan, space: FreeSpace) -> Figure:
-    """Return the tip's path over the free grid points, with the other paths of the same cost behind it."""
+def tip_path(plan: Plan, space: FreeSpace | None) -> Figure:
+    """Return the tip's path over the free grid points, if ``space`` is given, with the other paths of the same cost
+    behind it.
+    """
     title = f"task '{plan.task}': {plan.planner} path, {plan.path_cost * CM:.4f} cm"
     figure, axes = plane(title, plan.scene)
-    ys, xs = np.nonzero(space.union)
-    axes.plot(space.x[xs] * CM, space.y[ys] * CM, ".", color=FREE, markersize=1.5, zorder=1, label="free grid point")
+    if space is not None:
+        ys, xs = np.nonzero(space.union)
+        x, y = space.x[xs] * CM, space.y[ys] * CM
+        axes.plot(x, y, ".", color=FREE, markersize=1.5, zorder=1, label="free grid point")
     others = plan.equal_paths[1:]
     for i, path in enumerate(others):
         label = f"{len(others)} other paths of this cost" if i == 0 else None
@@ -70,30 +62,18 @@ def smoothed_path(plan: Plan) -> Figure:
 
 
 def arm_tracking(plan: Plan) -> Figure:
-    """Return the arm at instants along the motion: link 1 red, link 2 green, darker with time."""
+    """Return the arm at instants along the motion, darker with time: of two links the first red and the second green,
+    of more the shades go from base to tip. Bodies are as wide as they are.
+    """
     title = f"task '{plan.task}': the arm on its way"
     figure, axes = plane(_with_verdict(title, plan), plan.scene)
     samples = plan.at(np.linspace(0.0, plan.motion.duration, STILLS))
-    base = np.asarray(plan.scene.arm.base) * CM
-    for i, (elbow, tip) in enumerate(zip(samples.elbow * CM, samples.tip * CM, strict=True)):
-        strength = 0.25 + 0.75 * i / max(STILLS - 1, 1)
-        axes.plot(*zip(base, elbow, strict=True), color=LINK_1, linewidth=1.6, alpha=strength, zorder=4)
-        axes.plot(*zip(elbow, tip, strict=True), color=LINK_2, linewidth=1.6, alpha=strength, zorder=4)
+    draw_stills(axes, plan.scene, samples.link_ends)
     way = plan.at(np.linspace(0.0, plan.motion.duration, 2001)).tip
     _line(axes, way, color=SMOOTHED, linewidth=1.4, zorder=5, label="tip")
     _ends(axes, plan)
     mark_base(axes, plan.scene)
-    handles, labels = axes.get_legend_handles_labels()
-    links = [Line2D([], [], color=LINK_1, label="link 1"), Line2D([], [], color=LINK_2, label="link 2")]
-    axes.legend(
-        [*links, *handles],
-        ["link 1", "link 2", *labels],
-        loc="upper left",
-        bbox_to_anchor=(1.01, 1.0),
-        borderaxespad=0.0,
-        fontsize=9,
-        frameon=False,
-    )
+    legend_beside(axes, before=link_legend(plan.scene))
     return figure
 
 

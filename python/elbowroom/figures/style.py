@@ -4,8 +4,10 @@ scene.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle as CirclePatch
@@ -28,6 +30,15 @@ LIMIT = "#F6E3B4"
 COLLISION = "#D9A5C2"
 OUT_OF_REACH = "#F2F2F2"
 INK = "#222222"
+
+COLOURS = (PATH, START, LINK_2, SMOOTHED, GOAL, LINK_1, "#999999")
+"""For many curves beside each other: in this order neighbours differ most in lightness too."""
+
+DASHES = ("-", "--", ":", "-.")
+"""To go with colours: seven of those and four of these make 28 kinds of lines."""
+
+LONGEST_LEGEND = 16
+"""A legend with more entries gets another column."""
 
 
 def new_figure(width: float = 6.4, height: float = 5.2) -> tuple[Figure, Axes]:
@@ -97,9 +108,34 @@ def mark_base(axes: Axes, scene: Scene) -> None:
     )
 
 
-def legend_beside(axes: Axes) -> None:
-    """Put the legend outside, where it hides nothing."""
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), borderaxespad=0.0, fontsize=9, frameon=False)
+def legend_beside(
+    axes: Axes,
+    *,
+    before: Sequence[Artist] = (),
+    after: Sequence[Artist] = (),
+    size: int = 9,
+    rows: int = LONGEST_LEGEND,
+) -> None:
+    """Put the legend outside, where it hides nothing, in columns of at most so many rows.
+
+    Args:
+        axes: Whose labelled artists it shows.
+        before: Artists that come first.
+        after: Artists that come last.
+        size: Of the letters (points).
+        rows: Most of them in a column.
+    """
+    handles = [*before, *axes.get_legend_handles_labels()[0], *after]
+    axes.legend(
+        handles,
+        [str(handle.get_label()) for handle in handles],
+        loc="upper left",
+        bbox_to_anchor=(1.01, 1.0),
+        borderaxespad=0.0,
+        fontsize=size,
+        frameon=False,
+        ncols=-(-len(handles) // rows) or 1,
+    )
 
 
 def save(figure: Figure, path: Path) -> Path:

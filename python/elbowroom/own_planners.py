@@ -1,0 +1,47 @@
+"""elbowroom's own planners by name, as the core lists them: nothing else in Python names them one by one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from elbowroom import _core
+from elbowroom.errors import BadSetting
+
+OwnOption = int | str
+"""A value of an option: a whole number, or one of a few words."""
+
+
+@dataclass(frozen=True)
+class OwnKind:
+    """One of elbowroom's own planners.
+
+    Attributes:
+        name: What it is asked for by.
+        options: All its options with their defaults.
+        budget: Which of them limits how many candidates it judges; None if it does not count them.
+    """
+
+    name: str
+    options: Mapping[str, OwnOption]
+    budget: str | None
+
+
+OWN: Mapping[str, OwnKind] = {name: OwnKind(name, options, budget) for name, options, budget in _core.planners_known()}
+"""All of them by name, in the order that tables show them."""
+
+
+def all_options(planner: str, given: Mapping[str, object]) -> dict[str, OwnOption]:
+    """Return all options of ``planner``, those ``given`` in place of its defaults.
+
+    Raises:
+        BadSetting: There is no such planner, option or value; names that are not known list those that are.
+    """
+    for option, value in given.items():
+        whole = isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63
+        if not (whole or isinstance(value, str)):
+            message = (
+                f"option {option} of planner {planner} is {value!r}, it must be a whole number from 0 on or a word"
+            )
+            raise BadSetting(message, setting=option)
+    return _core.planner_options(planner, list(given.items()))  # type: ignore[arg-type]
