@@ -20,7 +20,7 @@ from elbowroom.errors import (
 )
 from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
 from elbowroom.plan import Plan, plan, plan_as_in_paper
-from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, Polygon, Scene, Task
+from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Task
 
 __version__ = version("elbowroom")
 
@@ -39,6 +39,7 @@ __all__ = [
     "NoPath",
     "NotFound",
     "NotFree",
+    "ObstacleMotion",
     "Plan",
     "Polygon",
     "Scene",

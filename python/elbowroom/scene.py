@@ -57,12 +57,39 @@ class Grid:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ObstacleMotion:
+    """How an obstacle moves, without turning: by way-points, at one velocity, or after the arm's tip.
+
+    Attributes:
+        waypoints: Times (s) and shifts from where the scene has the obstacle (m): straight from one to the next, still
+            before the first and after the last.
+        velocity: In m/s, from ``start`` (s) on.
+        start: When it begins to move at its velocity (s).
+        chases: Whether it goes after the tip, at its greatest speed, but no nearer to the arm than ``keep_off`` (m).
+        keep_off: See ``chases``.
+        greatest_speed: It is never faster (m/s); None for that of its way-points or velocity.
+        seen_from: Since when the arm knows of it (s); None, as ``sensing_radius``, if it always does.
+        sensing_radius: The arm knows of it while it is no farther away than this (m).
+    """
+
+    waypoints: Sequence[tuple[float, Pair]] | None = None
+    velocity: Pair | None = None
+    start: float = 0.0
+    chases: bool = False
+    keep_off: float = 0.0
+    greatest_speed: float | None = None
+    seen_from: float | None = None
+    sensing_radius: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Circle:
-    """A disc that the arm must not touch (m)."""
+    """A disc that the arm must not touch (m), and how it moves if it does."""
 
     center: Pair
     radius: float
     name: str | None = None
+    motion: ObstacleMotion | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,6 +98,7 @@ class Polygon:
 
     vertices: Sequence[Pair]
     name: str | None = None
+    motion: ObstacleMotion | None = None
 
 
 @dataclass(frozen=True)
@@ -165,11 +193,16 @@ class Scene:
         return cls(
             arm=Arm(**{**parts["arm"], "joints": tuple(Joint(**joint) for joint in parts["arm"]["joints"])}),
             grid=Grid(**parts["grid"]),
-            obstacles=tuple((Circle if "radius" in part else Polygon)(**part) for part in parts["obstacles"]),
+            obstacles=tuple(_obstacle(part) for part in parts["obstacles"]),
             tasks=tasks,
             file=file,
             locations=located,
         )
+
+
+def _obstacle(part: dict[str, Any]) -> Circle | Polygon:
+    motion = ObstacleMotion(**part.pop("motion")) if "motion" in part else None
+    return (Circle if "radius" in part else Polygon)(**part, motion=motion)
 
 
 def text_of(path: Path) -> str:

@@ -1,7 +1,7 @@
 use elbowroom::arm::Arm;
 use elbowroom::planners::Monitor;
 use elbowroom::trajectory::{Samples, interpolate};
-use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_until};
+use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_among};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -66,7 +66,7 @@ pub(crate) fn verify<'py>(
     };
     let settings = VerifySettings { margin, continuous, ..VerifySettings::default() };
     let (found, _) = watch::run(py, timeout, None, |watch| {
-        verify_until(&scene.scene, &motion.0, &settings, &|| watch.keep_going())
+        verify_among(&scene.scene, &scene.movers, &motion.0, &settings, &|| watch.keep_going())
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));

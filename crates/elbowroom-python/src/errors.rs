@@ -153,7 +153,9 @@ pub(crate) fn scene_file(py: Python<'_>, error: &SceneError) -> PyErr {
 pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PlanError) -> PyErr {
     let message = error.to_string();
     match error {
-        PlanError::Swarm(_) => setting(py, "swarm", &message),
+        PlanError::Swarm(_) | PlanError::Particles(_) | PlanError::Culture(_) | PlanError::Bounds(_) => {
+            setting(py, "planner", &message)
+        }
         PlanError::Duration { .. } | PlanError::TooFast { .. } => setting(py, "duration", &message),
         PlanError::Start(refused) => not_free(py, task, "start", refused),
         PlanError::Goal(refused) => not_free(py, task, "goal", refused),

@@ -119,11 +119,12 @@ impl From<OptionPart> for OptionValue {
     }
 }
 
+/// A planner's name, its options with their defaults, and which of them is its budget, if any.
+type Known<'py> = (&'static str, Bound<'py, PyDict>, Option<&'static str>);
+
 /// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
 #[pyfunction]
-pub(crate) fn planners_known(
-    py: Python<'_>,
-) -> PyResult<Vec<(&'static str, Bound<'_, PyDict>, Option<&'static str>)>> {
+pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
     let known = |planner: &Planner| Ok((planner.name(), options_of(py, planner)?, planner.budget()));
     Planner::all().iter().map(known).collect()
 }
@@ -197,7 +198,8 @@ pub(crate) fn plan(
     let planner = by_name(py, planner, options)?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
     let settings = PlanSettings { planner, objective, pace, seed, gap };
-    let work = |watch: &watch::Watch| planners::plan(&scene.scene, asked, &settings, watch);
+    let still = scene.still(py, "a planner")?;
+    let work = |watch: &watch::Watch| planners::plan(still, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
     Ok(Plan { plan, timings })

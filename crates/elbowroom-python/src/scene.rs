@@ -1,7 +1,7 @@
 use elbowroom::arm::{Arm, JointLimits, PlanarArm};
 use elbowroom::geometry::Point;
 use elbowroom::path::{clearances, self_clearance};
-use elbowroom::scene::{self, Place, Shape, Task, TaskPosture};
+use elbowroom::scene::{self, Course, Mover, Place, Shape, Sight, Task, TaskPosture};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -16,6 +16,8 @@ pub(crate) struct Scene {
     pub(crate) scene: scene::Scene<PlanarArm>,
     /// The same for what needs an arm of two links, if it has one.
     two_link: Option<scene::Scene>,
+    /// Those of its obstacles that move.
+    pub(crate) movers: Vec<Mover>,
 }
 
 impl Scene {
@@ -24,8 +26,19 @@ impl Scene {
         self.scene.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
     }
 
+    /// The scene for `what` takes all obstacles to stand still.
+    pub(crate) fn still(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene<PlanarArm>> {
+        let Some(mover) = self.movers.first() else { return Ok(&self.scene) };
+        let name = self.scene.obstacles[mover.obstacle()].name.as_deref();
+        let obstacle = name.map_or_else(|| mover.obstacle().to_string(), |name| format!("'{name}'"));
+        let message =
+            format!("{what} takes obstacles to stand still; obstacle {obstacle} of this scene moves");
+        Err(errors::setting(py, "scene", &message))
+    }
+
     /// The scene with its arm of two links, for `what` cannot do with another.
     pub(crate) fn two_link(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
+        self.still(py, what)?;
         self.two_link.as_ref().ok_or_else(|| {
             let message = format!(
                 "{what} needs an arm of 2 links; the arm of this scene has {}",
@@ -51,15 +64,17 @@ impl Scene {
         obstacles: Vec<ObstaclePart>,
         tasks: Vec<(String, TaskPart)>,
     ) -> PyResult<Self> {
-        let obstacles = obstacles
+        let built = obstacles
             .into_iter()
             .enumerate()
             .map(|(index, part)| part.build(py, index))
             .collect::<PyResult<Vec<_>>>()?;
+        let (obstacles, movers): (Vec<_>, Vec<_>) = built.into_iter().unzip();
+        let movers = movers.into_iter().flatten().collect();
         let tasks =
             tasks.into_iter().map(|(name, part)| part.build(py, name)).collect::<PyResult<Vec<_>>>()?;
         scene::Scene::new(arm.build(py)?, grid.build(py)?, obstacles, tasks)
-            .map(|scene| Self { two_link: scene.two_link(), scene })
+            .map(|scene| Self { two_link: scene.two_link(), movers, scene })
             .map_err(|problem| errors::part(py, "scene", &problem.to_string()))
     }
 
@@ -147,6 +162,7 @@ impl SceneFile {
     /// The scene as plain data, in metres and radians, with the names of the dataclasses' fields.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = &self.0.scene;
+        let motion_of = |index: usize| self.0.movers.iter().find(|mover| mover.obstacle() == index);
         let parts = PyDict::new(py);
         parts.set_item("arm", arm_parts(py, &scene.arm)?)?;
         let grid = PyDict::new(py);
@@ -157,7 +173,7 @@ impl SceneFile {
         grid.set_item("step", scene.grid.step())?;
         parts.set_item("grid", grid)?;
         let obstacles = PyList::empty(py);
-        for obstacle in &scene.obstacles {
+        for (index, obstacle) in scene.obstacles.iter().enumerate() {
             let part = PyDict::new(py);
             match &obstacle.shape {
                 Shape::Circle(circle) => {
@@ -170,6 +186,9 @@ impl SceneFile {
                 }
             }
             part.set_item("name", &obstacle.name)?;
+            if let Some(mover) = motion_of(index) {
+                part.set_item("motion", motion_parts(py, mover)?)?;
+            }
             obstacles.append(part)?;
         }
         parts.set_item("obstacles", obstacles)?;
@@ -215,6 +234,34 @@ fn arm_parts<'py>(py: Python<'py>, arm: &PlanarArm) -> PyResult<Bound<'py, PyDic
     }
     parts.set_item("joints", joints)?;
     Ok(parts)
+}
+
+/// How an obstacle moves, with the names of the dataclass's fields.
+fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Bound<'py, PyDict>> {
+    let part = PyDict::new(py);
+    match mover.course() {
+        Course::Waypoints(points) => {
+            let points: Vec<_> = points.iter().map(|p| (p.time, (p.shift.x, p.shift.y))).collect();
+            part.set_item("waypoints", points)?;
+        }
+        Course::Drift { start, velocity } => {
+            part.set_item("velocity", (velocity.x, velocity.y))?;
+            part.set_item("start", start)?;
+        }
+        Course::Chase { keep_off } => {
+            part.set_item("chases", true)?;
+            part.set_item("keep_off", keep_off)?;
+        }
+        // No file says so.
+        Course::Absent | Course::Unknown { .. } => {}
+    }
+    part.set_item("greatest_speed", mover.greatest_speed())?;
+    match mover.sight() {
+        Sight::Always => {}
+        Sight::From(time) => part.set_item("seen_from", time)?,
+        Sight::Within(radius) => part.set_item("sensing_radius", radius)?,
+    }
+    Ok(part)
 }
 
 /// A tip as a pair under `end`, a configuration as a pair under `end_q`.

@@ -1,9 +1,9 @@
 //! The parts of a scene as the dataclasses of `elbowroom.scene` hold them.
 
 use elbowroom::arm::{Joint, JointLimits, MotionLimits, PlanarArm};
-use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Place, Shape, Task, TaskPosture};
+use elbowroom::scene::{Course, Mover, Obstacle, Place, Shape, Sight, Task, TaskPosture, Waypoint};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -36,8 +36,20 @@ pub(crate) struct GridPart {
 
 #[derive(FromPyObject)]
 pub(crate) enum ObstaclePart {
-    Circle { center: [f64; 2], radius: f64, name: Option<String> },
-    Polygon { vertices: Vec<[f64; 2]>, name: Option<String> },
+    Circle { center: [f64; 2], radius: f64, name: Option<String>, motion: Option<MotionPart> },
+    Polygon { vertices: Vec<[f64; 2]>, name: Option<String>, motion: Option<MotionPart> },
+}
+
+#[derive(FromPyObject)]
+pub(crate) struct MotionPart {
+    waypoints: Option<Vec<(f64, [f64; 2])>>,
+    velocity: Option<[f64; 2]>,
+    start: f64,
+    chases: bool,
+    keep_off: f64,
+    greatest_speed: Option<f64>,
+    seen_from: Option<f64>,
+    sensing_radius: Option<f64>,
 }
 
 #[derive(FromPyObject)]
@@ -96,20 +108,47 @@ impl GridPart {
 }
 
 impl ObstaclePart {
-    pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<Obstacle> {
+    /// The obstacle, and how it moves if it does.
+    pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<(Obstacle, Option<Mover>)> {
         let refused = |message: String| errors::part(py, &format!("obstacles[{index}]"), &message);
-        Ok(match self {
-            Self::Circle { center, radius, name } => {
+        let (obstacle, motion) = match self {
+            Self::Circle { center, radius, name, motion } => {
                 let circle =
                     Circle::new(point(center), radius).map_err(|error| refused(error.to_string()))?;
-                Obstacle { name, shape: Shape::Circle(circle) }
+                (Obstacle { name, shape: Shape::Circle(circle) }, motion)
             }
-            Self::Polygon { vertices, name } => {
+            Self::Polygon { vertices, name, motion } => {
                 let polygon = Polygon::new(vertices.into_iter().map(point).collect())
                     .map_err(|error| refused(error.to_string()))?;
-                Obstacle { name, shape: Shape::Polygon(polygon) }
+                (Obstacle { name, shape: Shape::Polygon(polygon) }, motion)
             }
-        })
+        };
+        Ok((obstacle, motion.map(|motion| motion.build(py, index)).transpose()?))
+    }
+}
+
+impl MotionPart {
+    fn build(self, py: Python<'_>, index: usize) -> PyResult<Mover> {
+        let refused = |message: &str| errors::part(py, &format!("obstacles[{index}].motion"), message);
+        let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
+        let course = match (self.waypoints, self.velocity, self.chases) {
+            (Some(points), None, false) => Course::Waypoints(
+                points.into_iter().map(|(time, shift)| Waypoint { time, shift: vector(shift) }).collect(),
+            ),
+            (None, Some(velocity), false) => Course::Drift { start: self.start, velocity: vector(velocity) },
+            (None, None, true) => Course::Chase { keep_off: self.keep_off },
+            _ => return Err(refused("one of waypoints, velocity, chases")),
+        };
+        let sight = match (self.seen_from, self.sensing_radius) {
+            (None, None) => Sight::Always,
+            (Some(time), None) => Sight::From(time),
+            (None, Some(radius)) => Sight::Within(radius),
+            (Some(_), Some(_)) => return Err(refused("seen_from or sensing_radius, not both")),
+        };
+        if matches!(course, Course::Chase { .. }) && self.greatest_speed.is_none() {
+            return Err(refused("greatest_speed is needed beside chases"));
+        }
+        Mover::new(index, course, sight, self.greatest_speed).map_err(|error| refused(&error.to_string()))
     }
 }
 

@@ -106,7 +106,7 @@ impl World {
         let obstacle = &self.scene.obstacles[self.movers[i].obstacle()];
         let alone = Scene {
             arm: self.scene.arm,
-            grid: self.scene.grid.clone(),
+            grid: self.scene.grid,
             obstacles: vec![Obstacle { name: None, shape: shifted(&obstacle.shape, shift) }],
             tasks: Vec::new(),
         };

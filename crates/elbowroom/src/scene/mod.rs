@@ -58,7 +58,7 @@ impl<A: Arm> Scene<A> {
     }
 
     fn with<B>(&self, arm: B) -> Scene<B> {
-        let (grid, obstacles, tasks) = (self.grid.clone(), self.obstacles.clone(), self.tasks.clone());
+        let (grid, obstacles, tasks) = (self.grid, self.obstacles.clone(), self.tasks.clone());
         Scene { arm, grid, obstacles, tasks }
     }
 }

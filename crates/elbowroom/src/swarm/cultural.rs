@@ -70,7 +70,7 @@ struct Norm<V> {
 ///
 /// # Reference
 /// Reynolds, *An introduction to cultural algorithms* (1994), for the belief space; Guo et al., cited by the paper as
-/// [6], for the idea of joining it to a swarm.
+/// its sixth reference, for the idea of joining it to a swarm.
 #[derive(Debug, Clone)]
 pub struct CulturalSwarm<V: Value = f64> {
     swarm: Swarm<V>,

@@ -55,7 +55,7 @@ const ROUNDS: usize = 6;
 /// verifier as it is.
 ///
 /// # Reference
-/// CBPSO-style: Guo et al., cited by the paper as [6], of whom only the cultural swarm over quartic and quintic pieces in
+/// CBPSO-style: Guo et al., the sixth reference of the paper, of whom only the cultural swarm over quartic and quintic pieces in
 /// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
 pub(in super::super) fn plan(
     scene: &Scene<PlanarArm>,

@@ -58,7 +58,7 @@ const LEAST_SHAKE: f64 = 0.05;
 /// second differences, and the same matrix smooths the velocities of all particles.
 ///
 /// # Reference
-/// NSC-PSO-style: Kim and Lee, cited by the paper as [8], whose formula of the normalised step cost is not known; the
+/// NSC-PSO-style: Kim and Lee, the eighth reference of the paper, whose formula of the normalised step cost is not known; the
 /// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
 pub(in super::super) fn plan(
     scene: &Scene<PlanarArm>,
