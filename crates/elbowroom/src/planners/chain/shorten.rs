@@ -2,7 +2,7 @@
 
 use super::lead::Leader;
 use super::ledger::Halt;
-use crate::arm::{Arm, PlanarArm, joint_distance};
+use crate::arm::{PlanarArm, joint_distance};
 use crate::path::{JointPath, simplify};
 use crate::planners::Monitor;
 use crate::planners::limits::motion_limits;
