@@ -1,5 +1,8 @@
 //! Inverse kinematics by swarm: against the closed form of two links, and how it converges for many.
 
+#![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
+#![expect(clippy::print_stdout, reason = "how many evaluations it takes is a figure for the docs")]
+
 use std::f64::consts::PI;
 
 use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits, PlanarArm, Posture};

@@ -90,24 +90,21 @@ pub(crate) fn over_grid(
     let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        match &settings.planner {
-            Planner::DstarPso(swarm) => {
-                let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
-                let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
-                let terrain = Terrain {
-                    graph: &graph,
-                    cost_to_go: &|node| field.cost_to_go(node),
-                    distance: &|node| {
-                        let tip = graph.tip(node);
-                        goal_tips.iter().map(|goal| goal.distance(tip)).fold(f64::INFINITY, f64::min)
-                    },
-                    is_goal: &|node| goals.contains(&node),
-                };
-                let paths = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
-                let paths = paths.ok_or(PlanError::Stopped)?;
-                drawn.extend(paths.costs.into_iter().zip(paths.paths));
-            }
-            _ => {}
+        if let Planner::DstarPso(swarm) = &settings.planner {
+            let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
+            let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
+            let terrain = Terrain {
+                graph: &graph,
+                cost_to_go: &|node| field.cost_to_go(node),
+                distance: &|node| {
+                    let tip = graph.tip(node);
+                    goal_tips.iter().map(|goal| goal.distance(tip)).fold(f64::INFINITY, f64::min)
+                },
+                is_goal: &|node| goals.contains(&node),
+            };
+            let paths = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
+            let paths = paths.ok_or(PlanError::Stopped)?;
+            drawn.extend(paths.costs.into_iter().zip(paths.paths));
         }
     }
 
