@@ -109,7 +109,9 @@ pub(crate) fn plan(
         let kept = guides[run % 2].len();
         let guide = &mut guides[run % 2][round % roots.len() % kept];
         let follower = Follower { guide, target, most: ik.evaluations / SHARE };
-        let found = match follower.path(&mut leader, root) {
+        // Every run counts, so that the budget ends them.
+        let path = leader.ledger.spend(1).and_then(|()| follower.path(&mut leader, root));
+        let found = match path {
             Ok(Some(mut path)) => {
                 if run % 2 == 1 {
                     path.reverse();

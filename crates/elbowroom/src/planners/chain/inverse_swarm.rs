@@ -4,12 +4,21 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 use thiserror::Error;
 
-use crate::arm::{Arm, JointLimits, PlanarArm};
-use crate::geometry::{Point, angle_difference};
-use crate::swarm::{Bounds, BoundsError, Fitness, Neighbourhood, Swarm, SwarmError, SwarmSettings};
+use crate::arm::{Arm, Joint, JointLimits, PlanarArm};
+use crate::geometry::{Point, Vector, angle_difference};
+use crate::swarm::{Bounds, BoundsError, Fitness, Neighbourhood, Swarm, SwarmError, SwarmSettings, Value};
 
 /// Iterations without a hundredth of gain after which a swarm has come to rest and another one begins.
-const PATIENCE: usize = 25;
+const PATIENCE: usize = 20;
+
+/// Low, so that a swarm comes to rest soon: the next one begins where it ended.
+const INERTIA: f64 = 0.4;
+
+/// Pull towards a particle's own best, and towards the swarm's.
+const PULL: f64 = 1.49618;
+
+/// Iterations that room is taken for beforehand.
+const MOST_RESERVED: usize = 1_000;
 
 /// How far from 0 continuous joints are drawn (rad): more than half a turn, so that no direction lies at an edge only.
 const WIDEST_DRAW: f64 = 1.5 * std::f64::consts::PI;
@@ -27,7 +36,7 @@ pub struct InverseSwarmSettings {
 
 impl Default for InverseSwarmSettings {
     fn default() -> Self {
-        Self { particles: 30, iterations: 400, tolerance: 1e-9 }
+        Self { particles: 30, iterations: 3000, tolerance: 1e-9 }
     }
 }
 
@@ -63,6 +72,19 @@ pub enum InverseSwarmError {
     /// A setting makes no sense.
     #[error(transparent)]
     Swarm(#[from] SwarmError),
+    /// The previous configuration is none of this arm's, or the distance from it no angle.
+    #[error(
+        "previous configuration of {finite} finite angles for {joints} joints, within {radius} rad: there must be as many, and \
+         the distance finite and not negative"
+    )]
+    Previous {
+        /// How many of its angles are numbers.
+        finite: usize,
+        /// How many the arm has.
+        joints: usize,
+        /// As given (rad).
+        radius: f64,
+    },
     /// The joints span no box.
     #[error(transparent)]
     Bounds(#[from] BoundsError),
@@ -74,7 +96,8 @@ pub enum InverseSwarmError {
 /// from it, continuous joints the short way round. `violation` is 0 or less where a configuration may be taken; what may be
 /// taken beats what may not, which goes by its violation (Deb's rule). The swarm has one inertia and one best for all, and
 /// ends when its best may be taken and errs by less than the tolerance, or with the iterations; one that has come to rest
-/// short of that is drawn anew. The same seed gives the same bytes.
+/// short of that is drawn
+/// anew, around its best as long as that gains, then anywhere. The same seed gives the same bytes.
 ///
 /// IK-PSO-style, our reconstruction: the method's papers are known to us by their abstracts.
 ///
@@ -92,20 +115,26 @@ pub fn inverse_by_swarm(
     seed: u64,
     violation: &mut impl FnMut(&[f64]) -> f64,
 ) -> Result<SwarmInverse, InverseSwarmError> {
-    let bounds = bounds(arm, previous)?;
+    if let Some(Previous { q, radius, .. }) = previous {
+        let (finite, joints) = (q.iter().filter(|angle| angle.is_finite()).count(), arm.joints().len());
+        if finite != joints || q.len() != joints || !(radius.is_finite() && radius >= 0.0) {
+            return Err(InverseSwarmError::Previous { finite, joints, radius });
+        }
+    }
+    let bounds = Bounds::new(&ranges(arm, previous, WIDEST_DRAW))?;
+    let allowed = ranges(arm, previous, f64::INFINITY);
     let swarm_settings = SwarmSettings {
         particles: settings.particles,
         neighbourhood: Neighbourhood::Global,
-        // Clerc and Kennedy's constriction.
-        first_inertia: 0.7298,
-        last_inertia: 0.7298,
-        c_personal: 1.49618,
-        c_neighbour: 1.49618,
+        first_inertia: INERTIA,
+        last_inertia: INERTIA,
+        c_personal: PULL,
+        c_neighbour: PULL,
         v_max: Some(0.5),
         iterations: settings.iterations.max(1),
     };
     let error = |q: &[f64]| arm.tip_at(q).distance(tip);
-    let mut objective = |q: &[f64]| {
+    let mut fitness_of = |q: &[f64]| {
         let off = error(q);
         let away = previous.map_or(0.0, |previous| previous.weight * squared_distance(arm, previous.q, q));
         Fitness { violation: violation(q), cost: off * off + away }
@@ -114,26 +143,38 @@ pub fn inverse_by_swarm(
     // The first particle of the first swarm stands where the arm is.
     let first: Vec<Vec<f64>> = previous.iter().map(|previous| previous.q.to_vec()).collect();
     let mut swarm = Swarm::starting_at(&bounds, &swarm_settings, &first, seeds.next_u64())?;
+    let mut frame: Option<Frame> = None;
     let mut best: Option<(Vec<f64>, Fitness)> = None;
-    let mut convergence = Vec::with_capacity(settings.iterations);
-    let (mut gained_at, mut gained) = (0, Fitness { violation: f64::INFINITY, cost: f64::INFINITY });
+    let mut convergence = Vec::with_capacity(settings.iterations.min(MOST_RESERVED));
+    let (mut gained_at, mut gained, mut before) = (0, Fitness::WORST, Fitness::WORST);
     for iteration in 0..settings.iterations {
-        swarm.step(&mut objective);
-        let (q, fitness) = swarm.best();
-        if best.as_ref().is_none_or(|(_, known)| crate::swarm::Value::is_better(fitness, *known)) {
-            best = Some((q.to_vec(), fitness));
+        let place = |x: &[f64]| frame.as_ref().map_or_else(|| x.to_vec(), |frame| frame.place(x, &allowed));
+        swarm.step(&mut |x: &[f64]| fitness_of(&place(x)));
+        let (x, fitness) = swarm.best();
+        if best.as_ref().is_none_or(|(_, known)| fitness.is_better(*known)) {
+            best = Some((place(x), fitness));
         }
-        let Some((q, fitness)) = &best else { break };
+        let Some((q, least)) = &best else { break };
         let off = error(q);
         convergence.push(off);
-        if fitness.is_feasible() && off < settings.tolerance {
+        if least.is_feasible() && off < settings.tolerance {
             break;
         }
-        if is_gain(swarm.best().1, gained) {
-            (gained_at, gained) = (iteration, swarm.best().1);
+        if is_gain(fitness, gained, 0.99) {
+            (gained_at, gained) = (iteration, fitness);
         } else if iteration - gained_at >= PATIENCE {
-            swarm = Swarm::new(&bounds, &swarm_settings, seeds.next_u64())?;
-            (gained_at, gained) = (iteration, Fitness { violation: f64::INFINITY, cost: f64::INFINITY });
+            // Around the best for as long as that gains, then anywhere.
+            let closer = least.is_feasible() && is_gain(*least, before, 0.5);
+            before = if closer { *least } else { Fitness::WORST };
+            frame = closer.then(|| Frame::around(arm, q, least.cost.sqrt()));
+            let seed = seeds.next_u64();
+            swarm = if closer {
+                let unit = Bounds::new(&vec![[-1.0, 1.0]; q.len()])?;
+                Swarm::starting_at(&unit, &swarm_settings, &[vec![0.0; q.len()]], seed)?
+            } else {
+                Swarm::new(&bounds, &swarm_settings, seed)?
+            };
+            (gained_at, gained) = (iteration, Fitness::WORST);
         }
     }
     let (q, fitness) = best.unwrap_or_else(|| (swarm.best().0.to_vec(), swarm.best().1));
@@ -146,36 +187,75 @@ pub fn inverse_by_swarm(
     })
 }
 
-/// Whether `fitness` is better than `known` by a hundredth.
-fn is_gain(fitness: Fitness, known: Fitness) -> bool {
-    match (fitness.is_feasible(), known.is_feasible()) {
-        (true, true) => fitness.cost < 0.99 * known.cost,
-        (true, false) => true,
-        (false, true) => false,
-        (false, false) => fitness.violation < 0.99 * known.violation,
+/// Where a swarm that is drawn anew around its best looks: the joints' way that moves the tip most is as much narrower than
+/// the others as the tip follows it more. With the links in line, where the tip moves with the square of the other angles, a
+/// box in the joints' own axes would hold next to nothing that is better.
+struct Frame {
+    origin: Vec<f64>,
+    /// The way, of length 1, that moves the tip most.
+    stiff: Vec<f64>,
+    /// Half the width along it, and along the others (rad).
+    widths: [f64; 2],
+}
+
+impl Frame {
+    /// Around `q`, whose tip errs by `error` (m).
+    fn around(arm: &PlanarArm, q: &[f64], error: f64) -> Self {
+        let columns = arm.jacobian(q);
+        let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+        for column in &columns {
+            xx += column.x * column.x;
+            xy += column.x * column.y;
+            yy += column.y * column.y;
+        }
+        // The tip's direction of the greatest of the two singular values.
+        let along = Vector::polar(1.0, 0.5 * libm::atan2(2.0 * xy, xx - yy));
+        let pulls: Vec<f64> = columns.iter().map(|column| column.dot(along)).collect();
+        let greatest = pulls.iter().map(|pull| pull * pull).sum::<f64>().sqrt();
+        let [_, reach] = arm.reach();
+        let soft = 2.0 * (error / reach).sqrt();
+        let (stiff, narrow) = if greatest > 0.0 {
+            (pulls.iter().map(|pull| pull / greatest).collect(), (2.0 * error / greatest).min(soft))
+        } else {
+            (vec![0.0; q.len()], soft)
+        };
+        Self { origin: q.to_vec(), stiff, widths: [narrow, soft] }
+    }
+
+    /// The configuration at `x`, each coordinate from -1 to 1, put between the `allowed` ends.
+    fn place(&self, x: &[f64], allowed: &[[f64; 2]]) -> Vec<f64> {
+        let [narrow, soft] = self.widths;
+        let along: f64 = x.iter().zip(&self.stiff).map(|(x, stiff)| x * stiff).sum();
+        let at = |j: usize| self.origin[j] + soft * x[j] - (soft - narrow) * along * self.stiff[j];
+        (0..x.len()).map(|j| at(j).clamp(allowed[j][0], allowed[j][1])).collect()
     }
 }
 
-/// Where the swarm looks: between the stops, and around `previous`.
-fn bounds(arm: &PlanarArm, previous: Option<Previous<'_>>) -> Result<Bounds, BoundsError> {
-    let ranges: Vec<[f64; 2]> = (0..arm.joints().len())
-        .map(|j| {
-            let [min, max] = match (arm.joints()[j].limits, previous) {
-                (JointLimits::Continuous, None) => [-WIDEST_DRAW, WIDEST_DRAW],
-                (JointLimits::Continuous, Some(_)) => [f64::NEG_INFINITY, f64::INFINITY],
-                (JointLimits::Range { min, max }, _) => [min, max],
-            };
-            match previous.and_then(|previous| Some((*previous.q.get(j)?, previous.radius))) {
-                Some((q, radius)) => {
-                    let (low, high) = ((q - radius).max(min), (q + radius).min(max));
-                    // A previous configuration beyond a stop: the swarm looks at the stop.
-                    [low.min(max), high.max(min)]
-                }
-                None => [min, max],
-            }
+/// Whether `fitness` is no more than this `share` of `known`, or may be taken where that may not.
+fn is_gain(fitness: Fitness, known: Fitness, share: f64) -> bool {
+    match (fitness.is_feasible(), known.is_feasible()) {
+        (true, true) => fitness.cost < share * known.cost,
+        (true, false) => true,
+        (false, true) => false,
+        (false, false) => fitness.violation < share * known.violation,
+    }
+}
+
+/// Where each joint may be looked for: between the stops, and around `previous`; a continuous one without that up to `widest`
+/// from 0 (rad).
+fn ranges(arm: &PlanarArm, previous: Option<Previous<'_>>, widest: f64) -> Vec<[f64; 2]> {
+    let range = |(j, joint): (usize, &Joint)| {
+        let [min, max] = match joint.limits {
+            JointLimits::Continuous if previous.is_none() => [-widest, widest],
+            JointLimits::Continuous => [f64::NEG_INFINITY, f64::INFINITY],
+            JointLimits::Range { min, max } => [min, max],
+        };
+        previous.map_or([min, max], |Previous { q, radius, .. }| {
+            // A previous configuration beyond a stop: the swarm looks at the stop.
+            [(q[j] - radius).clamp(min, max), (q[j] + radius).clamp(min, max)]
         })
-        .collect();
-    Bounds::new(&ranges)
+    };
+    arm.joints().iter().enumerate().map(range).collect()
 }
 
 fn squared_distance(arm: &PlanarArm, from: &[f64], to: &[f64]) -> f64 {
