@@ -46,14 +46,15 @@ pub(crate) fn along(
     })
 }
 
-/// The plan whose motion is `motion` itself, led through `vias`, ends included.
+/// The plan whose motion is `motion` itself: `path` follows it, and at its places `vias` two pieces meet, ends included.
 ///
 /// # Errors
 /// [`PlanError::Refused`] when the verifier does not accept it, [`PlanError::Stopped`]
 pub(crate) fn with_motion(
     scene: &Scene<PlanarArm>,
     motion: Motion,
-    vias: JointPath<Vec<f64>>,
+    path: JointPath<Vec<f64>>,
+    vias: Vec<usize>,
     settings: &PlanSettings,
     effort: Effort,
     monitor: &impl Monitor,
@@ -68,9 +69,9 @@ pub(crate) fn with_motion(
         lower_bound: None,
         path_cost: trajectory.motion().tip_length(&scene.arm),
         paths_to_choose_from: 1,
-        tip_path: vias.tips(&scene.arm),
-        vias: (0..vias.0.len()).collect(),
-        joint_path: vias,
+        tip_path: path.tips(&scene.arm),
+        vias,
+        joint_path: path,
         stops: 0,
         trajectory,
         assumed_limits,

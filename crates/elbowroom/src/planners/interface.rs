@@ -27,9 +27,9 @@ pub fn plan<A: Arm>(
             let scene = scene.two_link().ok_or(PlanError::OtherArm { planner, links })?;
             posture_true::plan(&scene, task, settings, monitor)
         }
-        Planner::Pso(own) => swarms::pso(&scene.planar(), task, settings, own, monitor),
-        Planner::Cbpso(own) => swarms::cbpso(&scene.planar(), task, settings, own, monitor),
-        Planner::NscPso(own) => swarms::nsc_pso(&scene.planar(), task, settings, own, monitor),
+        Planner::Pso(_) | Planner::Cbpso(_) | Planner::NscPso(_) => {
+            swarms::plan(&scene.planar(), task, settings, monitor)
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use super::hunt::{Hunt, Patience};
 use super::polyline::around_straight;
 use super::track::Track;
 use crate::arm::PlanarArm;
-use crate::path::JointPath;
+use crate::path::{JointPath, turn_is_free};
 use crate::scene::{Scene, Task, TaskPosture};
 use crate::swarm::{CulturalSettings, CulturalSwarm, Fitness, SwarmSettings};
 use crate::trajectory::{Motion, Piece, SpeedLimits, TICK, quartic, quintic, stretch};
@@ -45,6 +45,9 @@ const FASTEST: f64 = 1.0;
 /// Looks at one piece.
 const LOOKS: usize = 24;
 
+/// The most places of a path along one piece.
+const DENSEST: usize = 3072;
+
 /// Rounds of lengthening a motion whose pieces were rounded to whole ticks.
 const ROUNDS: usize = 6;
 
@@ -57,16 +60,16 @@ const ROUNDS: usize = 6;
 /// # Reference
 /// CBPSO-style: Guo et al., the sixth reference of the paper, of whom only the cultural swarm over quartic and quintic pieces in
 /// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
-pub(in super::super) fn plan(
+pub(super) fn plan(
     scene: &Scene<PlanarArm>,
     task: &Task,
     settings: &PlanSettings,
     own: &CbpsoSettings,
+    ends: &Ends,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let ends = Ends::new(scene, task, settings.seed, monitor)?;
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, &ends);
+    let choice = Choice::new(&scene.arm, ends);
     let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
     let shape = Shape { choice: &choice, vias: own.vias, limits: track.limits(), pace: settings.pace };
     let mut hunt = Hunt::new(own.evaluations, monitor);
@@ -87,17 +90,18 @@ pub(in super::super) fn plan(
                 let Some(motion) = shape.motion(x) else {
                     return hunt.judge(|| f64::MAX, || 0.0, || None);
                 };
-                let looks = looks(&motion);
+                let looks = instants(&motion, LOOKS);
                 hunt.judge(
                     || violation(&track, &motion, &looks),
                     || cost(scene, settings.objective, &motion, &looks),
-                    || is_safe(scene, &motion, monitor).then(|| (motion.clone(), shape.places(x))),
+                    || is_safe(scene, &motion, monitor).then(|| motion.clone()),
                 )
             });
         }
     }
-    let ((motion, places), effort) = hunt.end()?;
-    with_motion(scene, motion, JointPath(places), settings, effort, monitor)
+    let (motion, effort) = hunt.end()?;
+    let (path, vias) = followed(scene, &motion);
+    with_motion(scene, motion, path, vias, settings, effort, monitor)
 }
 
 /// What a particle's coordinates stand for: via configurations, velocities there, durations, and the choice of ends.
@@ -221,14 +225,28 @@ fn on_ticks(durations: &[f64], factor: f64, total: Option<f64>) -> Vec<f64> {
     rounded
 }
 
-/// Configurations at even instants of each piece.
-fn looks(motion: &Motion) -> Vec<Vec<f64>> {
+/// Configurations at `count` even instants of each piece, and the first of all.
+fn instants(motion: &Motion, count: usize) -> Vec<Vec<f64>> {
     let first = motion.at(motion.start()).position;
     let rest = motion
         .pieces()
         .iter()
-        .flat_map(|piece| (1..=LOOKS).map(|i| piece.at(piece.duration * i as f64 / LOOKS as f64).position));
+        .flat_map(|piece| (1..=count).map(|i| piece.at(piece.duration * i as f64 / count as f64).position));
     std::iter::once(first).chain(rest).collect()
+}
+
+/// A path along the motion, dense enough for its straight turns to be certified, and its places where pieces meet.
+fn followed(scene: &Scene<PlanarArm>, motion: &Motion) -> (JointPath<Vec<f64>>, Vec<usize>) {
+    let mut count = LOOKS;
+    loop {
+        let places = instants(motion, count);
+        let certified = places.windows(2).all(|pair| turn_is_free(scene, &pair[0], &pair[1]));
+        if certified || count >= DENSEST {
+            let vias = (0..=motion.pieces().len()).map(|i| i * count).collect();
+            return (JointPath(places), vias);
+        }
+        count *= 2;
+    }
 }
 
 fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {

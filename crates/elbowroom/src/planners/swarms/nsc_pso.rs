@@ -60,16 +60,16 @@ const LEAST_SHAKE: f64 = 0.05;
 /// # Reference
 /// NSC-PSO-style: Kim and Lee, the eighth reference of the paper, whose formula of the normalised step cost is not known; the
 /// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
-pub(in super::super) fn plan(
+pub(super) fn plan(
     scene: &Scene<PlanarArm>,
     task: &Task,
     settings: &PlanSettings,
     own: &NscPsoSettings,
+    ends: &Ends,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let ends = Ends::new(scene, task, settings.seed, monitor)?;
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, &ends);
+    let choice = Choice::new(&scene.arm, ends);
     let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
     let mut hunt: Hunt<'_, _, Vec<Vec<f64>>> = Hunt::new(own.evaluations, monitor);
     let bounds = choice.bounds(own.waypoints, &[]).map_err(PlanError::Bounds)?;
@@ -108,7 +108,7 @@ pub(in super::super) fn plan(
 }
 
 /// Particles on straight ways, shaken where these are in contact.
-pub(in super::super) fn shaken(
+fn shaken(
     choice: &Choice,
     track: &Track<'_>,
     waypoints: usize,

@@ -43,16 +43,16 @@ impl Default for PsoSettings {
 ///
 /// # Reference
 /// Kennedy and Eberhart, *Particle swarm optimization* (1995); Shi and Eberhart (1998) for the inertia weight.
-pub(in super::super) fn plan(
+pub(super) fn plan(
     scene: &Scene<PlanarArm>,
     task: &Task,
     settings: &PlanSettings,
     own: &PsoSettings,
+    ends: &Ends,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let ends = Ends::new(scene, task, settings.seed, monitor)?;
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, &ends);
+    let choice = Choice::new(&scene.arm, ends);
     let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
     let mut hunt: Hunt<'_, _, Vec<Vec<f64>>> = Hunt::new(own.evaluations, monitor);
     let bounds = choice.bounds(own.vias, &[]).map_err(PlanError::Bounds)?;
