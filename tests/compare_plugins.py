@@ -69,6 +69,12 @@ def straight_through(scene: er.Scene, task: str, **_: object) -> Proposal:
     return straight_turns(scene, path[[0, -1]])
 
 
+def direct(scene: er.Scene, task: str, *, short: float = 0.0, **_: object) -> Proposal:
+    """Turns every joint from start to goal at once, or stops short by so much; for any number of links."""
+    start, goal = (np.array(getattr(scene.tasks[task], end).q) for end in ("start", "goal"))
+    return straight_turns(scene, [start, goal - short], evaluations=1)
+
+
 def goes_on(*_: object, **__: object) -> Proposal:
     while True:
         time.sleep(1.0)

@@ -1,11 +1,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import elbowroom as er
+from elbowroom.compare import straight_turns
 
 ROOT = Path(__file__).parent.parent
 CIRCLES = ((0.22, 0.22), (-0.08, 0.4), (-0.38, 0.18), (-0.2, -0.42), (0.38, -0.14))
@@ -29,3 +32,73 @@ def standin() -> er.Scene:
             "second": er.Task(start=(0.3, -0.3), goal=(0.15, 0.45)),
         },
     )
+
+
+@pytest.fixture
+def chain() -> Callable[..., er.Scene]:
+    """A scene whose arm has as many links as asked for, half a metre in all, swinging between two obstacles."""
+
+    def made(links: int, *, half_width: float = 0.004, self_collision: bool = True) -> er.Scene:
+        bend = math.radians(150)
+        bending = er.Joint(min=-bend, max=bend, velocity=2.0, acceleration=6.0)
+        arm = er.Arm(
+            links=(0.5 / links,) * links,
+            joints=(er.Joint(continuous=True, velocity=2.0), *(bending,) * (links - 1)),
+            half_width=half_width,
+            base=(0.02, -0.03),
+            self_collision=self_collision,
+        )
+        start = er.Configuration((0.3, *(0.9 / links,) * (links - 1)))
+        goal = er.Configuration((2.2, *(-1.6 / links,) * (links - 1)))
+        return er.Scene(
+            arm=arm,
+            grid=er.Grid(x=(-0.55, 0.55), y=(-0.55, 0.55), step=0.01),
+            obstacles=[
+                er.Circle(center=(0.45, -0.15), radius=0.06, name="post"),
+                er.Polygon(vertices=[(-0.4, 0.1), (-0.25, 0.15), (-0.35, 0.3)]),
+            ],
+            tasks={"go": er.Task(start=start, goal=goal)},
+        )
+
+    return made
+
+
+@pytest.fixture
+def by_hand() -> Callable[[er.Scene], er.Plan]:
+    """A plan from start to goal of the task ``go`` that no planner made: straight turns through one corner."""
+
+    def made(scene: er.Scene) -> er.Plan:
+        task = scene.tasks["go"]
+        assert isinstance(task.start, er.Configuration)
+        assert isinstance(task.goal, er.Configuration)
+        start, goal = np.array(task.start.q), np.array(task.goal.q)
+        middle = (start + goal) / 2.0 + 0.3 * np.sin(np.arange(len(start)))
+        corners = np.array([start, middle, goal])
+        turns = straight_turns(scene, corners)
+        judged = er.check(scene, t=turns.t, q=turns.q, v=turns.v, a=turns.a)
+        tips = scene.core.link_ends(corners)[:, -1]
+        return er.Plan(
+            scene=scene,
+            task="go",
+            planner="by hand",
+            settings={},
+            seed=0,
+            objective="time",
+            cost=judged.motion.duration,
+            path_cost=1.0,
+            lower_bound=None,
+            tip_path=tips,
+            equal_paths=[tips],
+            paths_to_choose_from=1,
+            configurations=corners,
+            postures=[None] * 3,
+            jumps=[],
+            vias=[0, 1, 2],
+            stops=1,
+            assumed_limits=[(j, "jerk", 4.0 * math.pi) for j in range(1, len(start) + 1)],
+            motion=judged.motion,
+            verdict=judged.verdict,
+            timings={},
+        )
+
+    return made

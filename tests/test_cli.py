@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from elbowroom.own_planners import OWN
+
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-c", "from elbowroom.cli import main; main()", *map(str, arguments)]
@@ -48,6 +50,8 @@ def test_plan_hands_out_a_motion_that_check_calls_safe(scenes: Path, tmp_path: P
     assert printed["verified"] is True
     assert printed["objective"] == "joint"
     assert printed["verdict"]["least_clearance"]["distance"] > 0
+    few = json.loads(run("plan", scene, "--task", "first", "--json", "--planner", "dstar-pso:candidates=4").stdout)
+    assert (few["planner"], few["settings"]["candidates"]) == ("dstar-pso", 4)
     slow = json.loads(run("plan", scene, "--task", "second", "--json", "--duration", "12.5").stdout)
     assert slow["pieces"][-1]["start"] + slow["pieces"][-1]["duration"] == pytest.approx(12.5, abs=1e-9)
 
@@ -75,8 +79,14 @@ def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path)
         (
             ("plan", "SCENES/paper-standin.yaml", "--task", "first", "--planner", "rrt"),
             2,
-            "no planner is called 'rrt'; known: dstar-pso, dstar, optimal",
+            f"no planner is called 'rrt'; known: {', '.join(OWN)}",
         ),
+        (
+            ("plan", "SCENES/paper-standin.yaml", "--task", "first", "--planner", "dstar-pso:speed=2"),
+            2,
+            "planner dstar-pso has no option 'speed'; known: candidates",
+        ),
+        (("plan", "SCENES/paper-standin.yaml", "--planner", "dstar-pso:speed"), 2, "'speed' is not option=value"),
         (("plan", "SCENES/paper-table1.yaml", "--task", "first"), 3, "not found at this resolution"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--timeout", "0"), 3, "timeout"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--duration", "nan"), 2, "duration"),

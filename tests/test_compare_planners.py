@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 import re
 import subprocess
 import sys
@@ -18,7 +19,7 @@ from elbowroom.compare.row import Problem
 from elbowroom.compare.run import run
 from elbowroom.compare.worker import Batch
 from elbowroom.own_planners import OWN
-from elbowroom.planners import Choice, all_chosen, chosen, known
+from elbowroom.planners import Choice, all_chosen, chosen, known, own_chosen
 
 TESTS = Path(__file__).parent
 
@@ -42,6 +43,7 @@ PLUGINS = {
     "text": "compare_plugins:answers_text",
     "nonsense": "compare_plugins:answers_nonsense",
     "through": "compare_plugins:straight_through",
+    "direct": "compare_plugins:direct",
     "goes-on": "compare_plugins:goes_on",
     "threads": "compare_plugins:says_threads",
     "refuses": "compare_plugins:refuses",
@@ -173,6 +175,78 @@ def test_what_becomes_of_planners(scenes: Path) -> None:
     assert nowhere.failure == "not_found"
     budgeted = {once("dstar-pso", scene, task="second", seed=1, budget=budget).cost for budget in (1, None)}
     assert len(budgeted) == 2
+
+
+FOUR_LINKS = """\
+elbowroom: 1
+units: {length: cm, angle: deg}
+arm:
+  links: [15, 12, 12, 11]
+  joints: [{continuous: true}, {min: -150, max: 150}, {min: -150, max: 150}, {min: -150, max: 150}]
+  self_collision: true
+grid: {x: [-50, 50], y: [-50, 50], step: 1}
+obstacles:
+  - circle: {center: [40, -30], radius: 5}
+tasks:
+  go: {start: {q: [0, 30, 30, 30]}, goal: {q: [90, -30, 40, 10]}}
+  fold: {start: {q: [0, 30, 30, 30]}, goal: {q: [90, 120, 120, 120]}}
+"""
+
+
+@pytest.mark.usefixtures("plugins")
+def test_what_becomes_of_arms_of_many_links(tmp_path: Path) -> None:
+    scene = tmp_path / "four.yaml"
+    scene.write_text(FOUR_LINKS)
+    good = once("direct", scene, task="go", objective="joint")
+    assert (good.success, good.safe, good.failure, good.evaluations) == (True, True, None, 1)
+    assert good.cost == good.joint_travel_rad == pytest.approx(math.radians(math.hypot(90, 60, 10, 20)), rel=1e-9)
+    assert good.least_clearance_m is not None
+    elsewhere = once("direct:short=0.01", scene, task="go")
+    assert (elsewhere.failure, elsewhere.message) == ("wrong_end", "the motion is 0.01 rad from the goal")
+    folded = once("direct", scene, task="fold")
+    assert (folded.failure, folded.found) == ("unsafe", True)
+    assert "touches link" in (folded.message or "")
+    refused = once("optimal", scene, task="go")
+    assert (refused.failure, refused.found) == ("refused", False)
+    assert refused.message == "planner optimal is for arms of 2 links; this one has 4"
+    names = ["direct", "optimal"]
+    found = compare([scene], planners=all_chosen(",".join(names)), seeds=range(2), out=tmp_path / "out", jobs=1)
+    became = Counter((row.planner, row.task, row.failure) for row in found.rows)
+    assert became == {
+        ("direct", "go", None): 2,
+        ("direct", "fold", "unsafe"): 2,
+        ("optimal", "go", "refused"): 2,
+        ("optimal", "fold", "refused"): 2,
+    }
+    report, *_ = write_report(found.rows, tmp_path / "out", planners=names, command="c")
+    assert "the planner does not serve this arm, task or setting" in report.read_text()
+
+
+def test_options_of_our_own_planners(scenes: Path) -> None:
+    scene = scenes / "paper-standin.yaml"
+    for name, kind in OWN.items():
+        assert chosen(name).settings == kind.options
+        assert kind.budget is None or isinstance(kind.options[kind.budget], int)
+        for option, value in kind.options.items():
+            assert chosen(f"{name}:{option}={value}").given == {}
+            with pytest.raises(er.BadSetting, match=f"option {option} of planner {name} is 'no such word', it must be"):
+                chosen(f"{name}:{option}=no such word")
+            if isinstance(value, int):
+                assert chosen(f"{name}:{option}={value + 1}").label == f"{name}:{option}={value + 1}"
+                with pytest.raises(er.BadSetting, match=f"option {option} of planner {name} is -1, it must be a whole"):
+                    chosen(f"{name}:{option}=-1")
+    # A budget stands for one of the options, and the row says so.
+    assert problem(chosen("dstar-pso"), scene, budget=50).settings == {"candidates": 50}
+    assert problem(chosen("dstar-pso"), scene).settings == {"candidates": 300}
+    few, same = once("dstar-pso:candidates=2", scene), once("dstar-pso", scene, budget=2)
+    assert few.settings == same.settings
+    assert (few.cost, few.planner, same.planner) == (same.cost, "dstar-pso:candidates=2", "dstar-pso")
+    assert problem(chosen("dstar-pso:candidates=2"), scene, budget=2).settings == {"candidates": 2}
+    with pytest.raises(er.BadSetting, match=r"planner dstar-pso:candidates=2 has candidates of its own and a budget"):
+        problem(chosen("dstar-pso:candidates=2"), scene, budget=3)
+    assert own_chosen("dstar-pso:candidates=2") == chosen("dstar-pso:candidates=2")
+    with pytest.raises(er.BadSetting, match="ompl is a plug-in, which only compare runs; known: dstar-pso, "):
+        own_chosen("ompl")
 
 
 # Rows

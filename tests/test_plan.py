@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
+from elbowroom.own_planners import OWN
 from elbowroom.plan_files import as_csv, as_json, columns, write_plan
 
 
@@ -121,6 +122,26 @@ def test_a_verified_plan_is_what_it_says(standin: er.Scene) -> None:
     slow = replace(standin, arm=replace(standin.arm, joints=(limited, standin.arm.joints[1])))
     with pytest.raises(er.BadSetting, match="duration"):
         er.plan(slow, task="first", duration=0.5)
+
+
+def test_options_are_taken_and_told(standin: er.Scene) -> None:
+    few = er.plan(standin, task="second", options={"candidates": 3})
+    assert few.settings["candidates"] == 3
+    assert er.plan(standin, task="second").settings["candidates"] == 300
+    assert (few.evaluations is None) == (few.convergence is None)
+    for planner, options, message in (
+        ("dstar", {"candidates": 3}, "planner dstar has no option 'candidates'; known: it has none"),
+        ("dstar-pso", {"speed": 3}, "planner dstar-pso has no option 'speed'; known: candidates"),
+        ("dstar-pso", {"candidates": "many"}, "option candidates of planner dstar-pso is 'many', it must be a whole"),
+        ("dstar-pso", {"candidates": -1}, "option candidates of planner dstar-pso is -1, it must be a whole number"),
+        ("dstar-pso", {"candidates": 2**64}, f"option candidates of planner dstar-pso is {2**64}, it must be a whole"),
+        ("dstar-pso", {"candidates": 2.5}, "option candidates of planner dstar-pso is 2.5, it must be a whole number"),
+        ("dstar-pso", {"candidates": True}, "option candidates of planner dstar-pso is True, it must be a whole"),
+        ("rrt", {}, f"no planner is called 'rrt'; known: {', '.join(OWN)}"),
+    ):
+        with pytest.raises(er.BadSetting) as caught:
+            er.plan(standin, task="first", planner=planner, options=options)  # type: ignore[arg-type]
+        assert str(caught.value).startswith(message)
 
 
 def test_no_sample_is_nearer_than_the_proved_clearance(standin: er.Scene) -> None:

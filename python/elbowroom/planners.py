@@ -189,7 +189,7 @@ def own_chosen(text: str) -> Choice:
     """
     name = text.strip().partition(":")[0]
     if name not in OWN:
-        why = f"{name} is a plug-in, for elbowroom compare" if _is_plugin(name) else f"no planner is called '{name}'"
+        why = f"{name} is a plug-in, which only compare runs" if _is_plugin(name) else f"no planner is called '{name}'"
         raise BadSetting(f"{why}; known: {', '.join(OWN)}", setting="planner")
     return chosen(text)
 

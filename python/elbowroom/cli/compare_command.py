@@ -12,13 +12,17 @@ from typing import Annotated, Any
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.own_planners import OWN
 
 
 def compare_command(
     scenes: Annotated[list[Path], typer.Argument(help="Scene files (YAML); all their tasks are planned.")],
     planners: Annotated[
         str | None,
-        typer.Option(help="Names with commas between, options as NAME:OPTION=VALUE; elbowroom's own if left out."),
+        typer.Option(
+            help="Names with commas between, options as NAME:OPTION=VALUE:OPTION=VALUE; if left out all of elbowroom's "
+            f"own: {', '.join(OWN)}."
+        ),
     ] = None,
     seeds: Annotated[int, typer.Option(min=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
     budget: Annotated[
@@ -42,7 +46,6 @@ def compare_command(
 
         from elbowroom.compare import compare
         from elbowroom.compare.report import write_report
-        from elbowroom.own_planners import OWN
         from elbowroom.planners import all_chosen
 
         choices = all_chosen(",".join(OWN) if planners is None else planners)

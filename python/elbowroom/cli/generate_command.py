@@ -14,15 +14,18 @@ def generate_command(
     out: Annotated[Path, typer.Option(help="Folder for the scene files.")],
     count: Annotated[int, typer.Option(min=1, help="How many scenes.")] = 50,
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same scenes.")] = 0,
+    links: Annotated[
+        int, typer.Option(min=2, help="How many links the arm has; with more than 2 it must not touch itself.")
+    ] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Draw random scenes around the paper's arm, to compare planners on."""
+    """Draw random scenes around the paper's arm, or one of more links, to compare planners on."""
     with reported():
         import json
 
         from elbowroom.compare.generate import write_scenes
 
-        written = write_scenes(count, out, seed=seed)
+        written = write_scenes(count, out, seed=seed, links=links)
         if as_json:
             typer.echo(json.dumps({"written": [str(path) for path in written]}))
         else:

@@ -1,4 +1,4 @@
-"""Random scenes around the paper's arm, as files: the same seed gives the same bytes."""
+"""Random scenes around the paper's arm, or one of more links, as files: the same seed gives the same bytes."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from elbowroom.compare.generate_chain import generated_chain
 from elbowroom.errors import BadSetting, SceneError
 from elbowroom.scene import Scene
 
@@ -54,6 +55,9 @@ obstacles:
 {obstacles}
 """
 
+MOST_LINKS = 30
+"""Most links of an arm: shorter ones would leave no room between those that must not touch."""
+
 Point = tuple[float, float]
 
 
@@ -79,12 +83,17 @@ def generated(number: int, *, seed: int) -> str:
             return text + "\ntasks:\n" + "\n".join(lines) + "\n"
 
 
-def write_scenes(count: int, folder: Path, *, seed: int) -> list[Path]:
+def write_scenes(count: int, folder: Path, *, seed: int, links: int = 2) -> list[Path]:
     """Write ``count`` scenes of ``seed`` into ``folder``, which is made if need be; return their paths.
 
+    Two links are those of the paper's arm; arms of more must not touch themselves, and go from one configuration to
+    another.
+
     Raises:
-        BadSetting: ``count`` or ``seed`` makes no sense.
+        BadSetting: ``count``, ``seed`` or ``links`` makes no sense.
     """
+    if not 2 <= links <= MOST_LINKS:
+        raise BadSetting(f"links is {links}, it must be a whole number from 2 to {MOST_LINKS}", setting="links")
     for name, value, least in (("count", count, 1), ("seed", seed, 0)):
         if value < least:
             raise BadSetting(f"{name} is {value}, it must be a whole number from {least} on", setting=name)
@@ -92,8 +101,13 @@ def write_scenes(count: int, folder: Path, *, seed: int) -> list[Path]:
     digits = len(str(count))
     paths = []
     for number in range(1, count + 1):
-        path = folder / f"seed{seed}-{number:0{digits}d}.yaml"
-        path.write_text(generated(number, seed=seed), encoding="utf-8", newline="\n")
+        arm = "" if links == 2 else f"links{links}-"
+        path = folder / f"{arm}seed{seed}-{number:0{digits}d}.yaml"
+        if links == 2:
+            text = generated(number, seed=seed)
+        else:
+            text = generated_chain(number, seed=seed, links=links, obstacles=_obstacles)
+        path.write_text(text, encoding="utf-8", newline="\n")
         paths.append(path)
     return paths
 

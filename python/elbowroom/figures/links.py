@@ -15,7 +15,7 @@ from elbowroom.figures.style import CM, INK, LINK_1, LINK_2
 from elbowroom.plan import Floats
 from elbowroom.scene import Scene
 
-SHADES = ("viridis", 0.0, 0.82)
+SHADES = ("viridis", 0.1, 0.82)
 """Where the shades of more than two links are from: dark at the base, light at the tip, told apart by lightness too."""
 
 MOST_NAMED = 12
