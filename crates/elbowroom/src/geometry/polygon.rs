@@ -97,11 +97,14 @@ impl Polygon {
     /// lies from the boundary, to a millionth of the segment's length.
     pub fn signed_distance_to_segment(&self, segment: Segment) -> f64 {
         let distance = self.distance_to_segment(segment);
-        if distance > 0.0 { distance } else { -self.depth_of_segment(segment) }
+        let length = segment.a.distance(segment.b);
+        if distance > 0.0 { distance } else { -self.depth_of_segment(segment, 1e-6 * length) }
     }
 
-    /// By bisection: depth changes along the segment no faster than the place does.
-    fn depth_of_segment(&self, segment: Segment) -> f64 {
+    /// How far the innermost point of a segment that meets the polygon lies from the boundary (m), less by `tolerance` (m)
+    /// at most.
+    pub fn depth_of_segment(&self, segment: Segment, tolerance: f64) -> f64 {
+        // By bisection: depth changes along the segment no faster than the place does.
         let length = segment.a.distance(segment.b);
         let depth = |fraction: f64| {
             let point = segment.a + (segment.b - segment.a) * fraction;
@@ -115,7 +118,7 @@ impl Polygon {
             let middle = (from + to) / 2.0;
             let here = depth(middle);
             deepest = deepest.max(here);
-            if here + length * (to - from) / 2.0 > deepest + 1e-6 * length && to - from > 1e-9 {
+            if here + length * (to - from) / 2.0 > deepest + tolerance && to - from > 1e-9 {
                 stretches.push((from, middle));
                 stretches.push((middle, to));
             }

@@ -1,8 +1,18 @@
 //! How much a configuration is in contact: what orders candidates that may not be taken.
 
+use smallvec::SmallVec;
+
 use crate::arm::{Arm, PlanarArm};
 use crate::geometry::{Point, Segment};
 use crate::scene::{Obstacle, Scene, Shape};
+
+/// What a configuration is like.
+pub(super) struct Look {
+    /// See [`Contacts::violation`].
+    pub(super) violation: f64,
+    /// As long as no point of the arm moves farther than this (m), the violation stays 0; not above 0 where it is not.
+    pub(super) gap: f64,
+}
 
 /// All that the arm of a scene must not touch, prepared for looking at it many times.
 pub(super) struct Contacts<'a> {
@@ -21,15 +31,23 @@ impl<'a> Contacts<'a> {
     /// By how much links at `q` (rad) come nearer than the margin to what they must keep clear of, summed up over all that
     /// do (m); 0 where none does. It grows with the depth of every contact, so that there is always a way out.
     pub(super) fn violation(&self, q: &[f64]) -> f64 {
+        self.look(q).violation
+    }
+
+    /// The violation at `q` (rad), and how far it is from there to the next.
+    pub(super) fn look(&self, q: &[f64]) -> Look {
         let arm = &self.scene.arm;
-        let links: Vec<Segment> = arm.link_segments(q).collect();
+        let links: SmallVec<[Segment; 8]> = arm.link_segments(q).collect();
         let needed = self.margin + arm.half_width();
-        let mut sum = 0.0;
+        let mut look = Look { violation: 0.0, gap: f64::INFINITY };
         for (obstacle, (center, radius)) in self.scene.obstacles.iter().zip(&self.discs) {
             for link in &links {
-                if link.distance_to_point(*center) - radius < needed {
-                    sum += (needed - signed_distance(obstacle, *link)).max(0.0);
+                let mut gap = link.distance_to_point(*center) - radius - needed;
+                if gap < 0.0 {
+                    gap = self.signed_distance(obstacle, *link) - needed;
+                    look.violation += (-gap).max(0.0);
                 }
+                look.gap = look.gap.min(gap);
             }
         }
         if arm.self_collision() {
@@ -39,18 +57,25 @@ impl<'a> Contacts<'a> {
                     let distance = link.distance_to_segment(*other);
                     // Links that cross are as deep as their nearest end is from coming out.
                     let depth = if distance > 0.0 { 0.0 } else { nearest_end(*link, *other) };
-                    sum += (needed - distance).max(0.0) + depth;
+                    look.violation += (needed - distance).max(0.0) + depth;
+                    // Both may move.
+                    look.gap = look.gap.min((distance - needed) / 2.0);
                 }
             }
         }
-        sum
+        look
     }
-}
 
-/// From the obstacle to the link, negative by the depth (m).
-fn signed_distance(obstacle: &Obstacle, link: Segment) -> f64 {
-    let distance = obstacle.distance_to_segment(link);
-    if distance > 0.0 { distance } else { obstacle.signed_distance_to_segment(link) }
+    /// From the obstacle to the link, negative by the depth (m).
+    fn signed_distance(&self, obstacle: &Obstacle, link: Segment) -> f64 {
+        match &obstacle.shape {
+            Shape::Circle(circle) => circle.signed_distance_to_segment(link),
+            Shape::Polygon(polygon) => match polygon.distance_to_segment(link) {
+                distance if distance > 0.0 => distance,
+                _ => -polygon.depth_of_segment(link, self.margin),
+            },
+        }
+    }
 }
 
 /// How far the nearest end of two links is from the other link (m).

@@ -251,7 +251,12 @@ fn followed(scene: &Scene<PlanarArm>, motion: &Motion) -> (JointPath<Vec<f64>>, 
 
 fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
     let start = motion.at(motion.start()).position;
-    looks.windows(2).map(|pair| track.at(&pair[1], &start) * (track.way(&pair[0], &pair[1]) + 1e-6)).sum()
+    let mut watch = track.watch(&start);
+    let mut at = |pair: &[Vec<f64>]| {
+        let moved = track.way(&pair[0], &pair[1]);
+        watch.at(&pair[1], moved) * (moved + 1e-6)
+    };
+    looks.windows(2).map(&mut at).sum()
 }
 
 fn cost(scene: &Scene<PlanarArm>, objective: Objective, motion: &Motion, looks: &[Vec<f64>]) -> f64 {

@@ -56,13 +56,27 @@ impl<'a> Track<'a> {
     /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
     /// points (m²); 0 where it keeps some clearance wherever it is looked at.
     pub(super) fn violation(&self, places: &[Vec<f64>]) -> f64 {
-        places.windows(2).map(|pair| self.turn(&pair[0], &pair[1])).sum()
+        let mut watch = self.watch(&places[0]);
+        places.windows(2).map(|pair| self.turn(&pair[0], &pair[1], &mut watch)).sum()
     }
 
-    fn turn(&self, from: &[f64], to: &[f64]) -> f64 {
+    /// Looks at configurations on a way from `start`, whose posture is the one to be kept.
+    pub(super) fn watch<'t>(&'t self, start: &'t [f64]) -> Watch<'t> {
+        Watch { track: self, start, gap: 0.0 }
+    }
+
+    fn turn(&self, from: &[f64], to: &[f64], watch: &mut Watch<'_>) -> f64 {
         let looks = self.looks(from, to);
-        let step = (self.way(from, to) / looks as f64).max(self.look_every * 1e-3);
-        (1..=looks).map(|i| self.at(&between(from, to, i as f64 / looks as f64), from)).sum::<f64>() * step
+        let moved = self.way(from, to) / looks as f64;
+        let mut q = from.to_vec();
+        let sum: f64 = (1..=looks)
+            .map(|i| {
+                let share = i as f64 / looks as f64;
+                q.iter_mut().zip(from.iter().zip(to)).for_each(|(q, (a, b))| *q = a + (b - a) * share);
+                watch.at(&q, moved)
+            })
+            .sum();
+        sum * moved.max(self.look_every * 1e-3)
     }
 
     /// Tip travel on a straight turn (m), by chords from look to look.
@@ -84,8 +98,8 @@ impl<'a> Track<'a> {
         ((self.way(from, to) / self.look_every).ceil() as usize).clamp(1, MOST_LOOKS)
     }
 
-    /// How far from free the arm is at `q` (m); the posture to be kept is that at `start`.
-    pub(super) fn at(&self, q: &[f64], start: &[f64]) -> f64 {
+    /// How far `q` is beyond the stops and, where the posture at `start` is to be kept, beyond the full stretch (m).
+    fn beyond(&self, q: &[f64], start: &[f64]) -> f64 {
         let beyond: f64 = self
             .scene
             .arm
@@ -102,7 +116,7 @@ impl<'a> Track<'a> {
             _ => 0.0,
         };
         let [_, reach] = self.scene.arm.reach();
-        self.contacts.violation(q) + (beyond + flipped) * reach
+        (beyond + flipped) * reach
     }
 
     /// How far a point of the arm may move (m) while the joints turn evenly.
@@ -115,6 +129,29 @@ impl<'a> Track<'a> {
                 length * f64::abs(turn)
             })
             .sum()
+    }
+}
+
+/// Looks at one configuration after the other, and not at those that are too near to the last to be in contact.
+pub(super) struct Watch<'t> {
+    track: &'t Track<'t>,
+    start: &'t [f64],
+    /// How far the arm may still move (m).
+    gap: f64,
+}
+
+impl Watch<'_> {
+    /// How far from free the arm is at `q` (m), where no point of it is farther than `moved` (m) from where it was at the
+    /// last look.
+    pub(super) fn at(&mut self, q: &[f64], moved: f64) -> f64 {
+        self.gap -= moved;
+        let mut violation = self.track.beyond(q, self.start);
+        if self.gap <= 0.0 {
+            let look = self.track.contacts.look(q);
+            self.gap = look.gap;
+            violation += look.violation;
+        }
+        violation
     }
 }
 
