@@ -62,8 +62,8 @@ def write_report(
         return f"![{words}]({path.relative_to(folder).as_posix()})"
 
     if len(summary.tasks) > 1:
-        parts += ["## Over all tasks", _overall_table(summary), _pairs_of(summary.pairs, "tasks")]
-        parts.append(picture(save(_overall_figure(summary), folder / "figures" / "overall.png"), "all tasks"))
+        parts += ["## Over all tasks", overall_table(summary), _pairs_of(summary.pairs, "tasks")]
+        parts.append(picture(save(overall_figure(summary), folder / "figures" / "overall.png"), "all tasks"))
     if len(summary.tasks) > MOST_TASKS:
         parts += ["## Task by task", _short_table(summary, rows[0].objective)]
     else:
@@ -71,7 +71,7 @@ def write_report(
             show(f"drawing {task.scene}, {task.task}")
             stem = folder / "figures" / f"{number:02d}_{_safe(task.scene)}_{_safe(task.task)}"
             words = f"{task.scene}, task {task.task}"
-            parts += [f"## {_cell(task.scene)}, task {_cell(task.task)}", _table(task, rows[0].objective)]
+            parts += [f"## {_cell(task.scene)}, task {_cell(task.task)}", task_table(task, rows[0].objective)]
             parts.append(picture(save(_boxes(task, words), stem.with_name(stem.name + ".png")), words))
             if curves := _curves(task):
                 figure = convergence(words, CONVERGING[rows[0].objective], curves)
@@ -128,7 +128,8 @@ def _count(number: int, noun: str) -> str:
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
-def _table(task: TaskSummary, objective: str) -> str:
+def task_table(task: TaskSummary, objective: str) -> str:
+    """Return what the planners came to on a task, a line each."""
     metrics = [m for m in METRICS if m.column in ALWAYS or any(cell.medians[m.column] for cell in task.cells)]
     header = ["planner", "success", "unsafe", *(f"{m.title} ({m.unit})" if m.unit else m.title for m in metrics)]
     best = task.best(OBJECTIVE_COLUMN[objective])
@@ -146,7 +147,7 @@ def _table(task: TaskSummary, objective: str) -> str:
                 shown = f"**{shown}**"
             values.append(shown)
         lines.append([f"`{cell.planner}`", _success(cell), str(cell.unsafe), *values])
-    return _markdown(header, lines)
+    return markdown_table(header, lines)
 
 
 def _at_best(task: TaskSummary, metric: Metric, best: float | None) -> str | None:
@@ -177,7 +178,8 @@ def _interval(interval: Interval | None, metric: Metric) -> str:
     return middle if low == high == middle else f"{middle} [{low}, {high}]"
 
 
-def _overall_table(summary: Summary) -> str:
+def overall_table(summary: Summary) -> str:
+    """Return what the planners came to over all tasks, a line each."""
     header = ["planner", "runs with success (%)", "unsafe", "cost over the task's best", "best on", "time (ms)"]
     tasks = len(summary.tasks)
     lines = []
@@ -190,7 +192,7 @@ def _overall_table(summary: Summary) -> str:
             time = _interval(of.time, METRICS[-1])
         success = f"{100 * of.success.value:.1f} [{100 * of.success.low:.1f}, {100 * of.success.high:.1f}]"
         lines.append([f"`{of.planner}`", success, str(of.unsafe), ratio, f"{of.best_on} of {tasks}", time])
-    return _markdown(header, lines) + (
+    return markdown_table(header, lines) + (
         "\n\nCost over the best: on each task the planner's median over the least median of any, then the median over "
         "the tasks that it solved."
     )
@@ -213,7 +215,7 @@ def _short_table(summary: Summary, objective: str) -> str:
             values.append((f"**{shown}**" if shown == _best_alone(task, metric) else shown) + some)
         lines.append([_cell(task.scene), _cell(task.task), *values])
     note = f"Median {metric.title} ({metric.unit}) of the runs with success, and how many they are if not all."
-    return note + "\n\n" + _markdown(["scene", "task", *(f"`{planner}`" for planner in planners)], lines)
+    return note + "\n\n" + markdown_table(["scene", "task", *(f"`{planner}`" for planner in planners)], lines)
 
 
 def _best_alone(task: TaskSummary, metric: Metric) -> str | None:
@@ -237,7 +239,7 @@ def _pairs_of(pairs: Sequence[Pair], what: str) -> str:
         ]
         for pair in cost
     ]
-    return f"Cost, planner against planner ({cost[0].test}):\n\n" + _markdown(header, lines)
+    return f"Cost, planner against planner ({cost[0].test}):\n\n" + markdown_table(header, lines)
 
 
 def _p(p: float) -> str:
@@ -266,7 +268,8 @@ def _boxes(task: TaskSummary, title: str) -> Figure:
     return side_by_side(title, [cell.planner for cell in task.cells], panels)
 
 
-def _overall_figure(summary: Summary) -> Figure:
+def overall_figure(summary: Summary) -> Figure:
+    """Draw success, cost and time of the planners over all tasks."""
     def times(of: Overall) -> list[float]:
         cells = (cell for task in summary.tasks for cell in task.cells if cell.planner == of.planner)
         return [interval.value for cell in cells if (interval := cell.medians["time_s"]) is not None]
@@ -296,7 +299,8 @@ def _as_csv(pairs: Sequence[Pair]) -> str:
     return text.getvalue()
 
 
-def _markdown(header: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+def markdown_table(header: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
+    """Return a table: names to the left, numbers to the right."""
     left = {"planner", "first", "second", "scene", "task"}
     rule = ["---" if name in left else "---:" for name in header]
     return "\n".join(f"| {' | '.join(cells)} |" for cells in (header, rule, *lines))

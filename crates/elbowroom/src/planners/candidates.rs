@@ -5,7 +5,7 @@ use super::optimal::{Search, over_joints, over_tips};
 use super::posture_graph::PostureGraph;
 use super::problem::Problem;
 use super::settings::{Objective, PlanSettings, Planner};
-use super::{Monitor, PlanError, Stage};
+use super::{Effort, Monitor, PlanError, Stage};
 use crate::arm::Configuration;
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
@@ -33,10 +33,11 @@ const TAUT_TOLERANCE: f64 = 0.1;
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 pub(crate) const SAME_COST: f64 = 1e-9;
 
-/// Certified paths, and how many they were chosen from.
+/// Certified paths, how many they were chosen from, and what a search by evaluations took.
 pub(crate) struct Found {
     pub(crate) candidates: Vec<Candidate>,
     pub(crate) paths: usize,
+    pub(crate) effort: Option<Effort>,
 }
 
 /// A certified path to make a motion of.
@@ -89,6 +90,7 @@ pub(crate) fn over_grid(
     let worth_it = starts.iter().filter(|&&start| field.cost_to_go(start) <= least * (1.0 + slack));
     let mut own: Vec<(f64, Vec<usize>)> = Vec::new();
     let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
+    let mut effort = None;
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
         if let Planner::DstarPso(swarm) = &settings.planner {
@@ -105,6 +107,7 @@ pub(crate) fn over_grid(
             };
             let paths = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
             let paths = paths.ok_or(PlanError::Stopped)?;
+            effort.get_or_insert_with(Effort::default).evaluations += swarm.candidates;
             drawn.extend(paths.costs.into_iter().zip(paths.paths));
         }
     }
@@ -122,7 +125,7 @@ pub(crate) fn over_grid(
     let mut chosen = joined(own)?;
     chosen.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
     let candidate = |(tip_travel, path)| Candidate { path, tip_travel, tolerance: GRID_TOLERANCE };
-    Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths })
+    Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths, effort })
 }
 
 /// Paths that leave the grid: over the joints or, for tip travel, over the tip; for time what D* finds as well, which
@@ -175,7 +178,7 @@ pub(crate) fn off_grid(
         }
     };
     let paths = candidates.len();
-    Ok(Found { candidates, paths })
+    Ok(Found { candidates, paths, effort: None })
 }
 
 fn candidate(scene: &Scene, path: JointPath) -> Candidate {

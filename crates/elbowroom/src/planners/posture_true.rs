@@ -47,7 +47,7 @@ pub(crate) fn plan(
     if let Some(q) = work.problem.already_there() {
         let path = JointPath(vec![q]);
         let stay = vec![Candidate { path, tip_travel: 0.0, tolerance: GRID_TOLERANCE }];
-        return work.motion_along(Found { candidates: stay, paths: 1 }, Some(0.0));
+        return work.motion_along(Found { candidates: stay, paths: 1, effort: None }, Some(0.0));
     }
     match settings.planner {
         Planner::Optimal => work.optimal(),
@@ -192,7 +192,7 @@ impl<M: Monitor> Work<'_, M> {
                     stops: smoothed.stops,
                     trajectory: smoothed.trajectory,
                     assumed_limits: self.assumed_limits.clone(),
-                    effort: None,
+                    effort: found.effort.clone(),
                 });
             }
         }
