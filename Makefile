@@ -2,7 +2,7 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
-.PHONY: demo test campaign setup bench bench-core tables ompl clean
+.PHONY: demo test campaign setup bench bench-core tables table2 ompl clean
 
 demo: setup
 	$(BIN)/elbowroom paper --out out/paper
@@ -24,6 +24,10 @@ test: setup
 tables: setup
 	$(BIN)/python -m bench.objectives
 	$(BIN)/python -m bench.bounds
+
+# All planners on the same tasks (docs/table2.md); rows that are there in out/table2 are kept. An hour on two cores.
+table2: setup
+	$(BIN)/python -m bench.table2
 
 # Safety at length: 100,000 random worlds, a million edges and pieces, 10,000 worlds by brute force; an hour on two cores.
 campaign:

@@ -26,6 +26,11 @@ EQUAL = "dstar-pso,dstar,optimal,pso,cbpso,nsc-pso,ik-pso"
 OWN = "dstar-pso,pso,pso:neighbourhood=ring,cbpso,nsc-pso,nsc-pso:initialisation=uniform,ik-pso"
 """With the budgets that they have by default, and two of them in another way."""
 
+LINKS = "dstar-pso,ik-pso,cbpso:evaluations=60000"
+"""On arms of more links."""
+
+LINK_SCENES = tuple(SCENES / f"{name}-links.yaml" for name in ("three", "five", "ten"))
+
 
 def compared(scenes: Sequence[Path], planners: str, *, seeds: int, budget: int | None, out: Path) -> list[Row]:
     """Return the rows, those made now and those that were there."""
@@ -38,17 +43,17 @@ def compared(scenes: Sequence[Path], planners: str, *, seeds: int, budget: int |
     return list(compare(scenes, planners=choices, out=out, seeds=range(seeds), budget=budget, show=show).rows)
 
 
-def sections(summary: Summary) -> list[str]:
-    """Return the tables of the example scenes, a task each."""
-    examples = {path.stem for path in EXAMPLES}
+def sections(summary: Summary, scenes: Sequence[Path] = EXAMPLES) -> str:
+    """Return the tables of some scenes, a task each."""
+    names = {path.stem for path in scenes}
     parts = []
     for task in summary.tasks:
-        if Path(task.scene).stem in examples:
+        if Path(task.scene).stem in names:
             parts += [f"### {Path(task.scene).stem}, task {task.task}", task_table(task, "tip")]
-    return parts
+    return "\n\n".join(parts)
 
 
-def page(equal: Summary, own: Summary, *, rows: int, seeds: int, generated: int, picture: Path) -> str:
+def page(equal: Summary, own: Summary, links: Summary, *, rows: int, seeds: int, generated: int, picture: Path) -> str:
     """Return docs/table2.md."""
     text = Path(__file__).with_name("table2_page.md").read_text(encoding="utf-8")
     filled = {
@@ -58,12 +63,17 @@ def page(equal: Summary, own: Summary, *, rows: int, seeds: int, generated: int,
         "budget": f"{BUDGET}",
         "overall": overall_table(equal),
         "picture": f"![success, cost and time over all tasks]({picture.as_posix()})",
-        "tasks": "\n\n".join(sections(equal)),
-        "own": "\n\n".join(sections(own)),
+        "tasks": sections(equal),
+        "own": sections(own),
+        "links": sections(links, LINK_SCENES),
     }
     for name, value in filled.items():
         text = text.replace("{{" + name + "}}", value)
     return text
+
+
+def _summary(rows: Sequence[Row], planners: str) -> Summary:
+    return summarised(rows, [choice.label for choice in all_chosen(planners)])
 
 
 def main() -> None:
@@ -75,16 +85,18 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=Path("docs/table2.md"))
     options = parser.parse_args()
     own = compared(EXAMPLES, OWN, seeds=options.seeds, budget=None, out=options.rows / "own")
+    links = compared(LINK_SCENES, LINKS, seeds=options.seeds, budget=None, out=options.rows / "links")
     scenes = [*EXAMPLES, *write_scenes(options.generated, options.rows / "scenes", seed=0)]
     equal = compared(scenes, EQUAL, seeds=options.seeds, budget=BUDGET, out=options.rows / "equal")
-    summary = summarised(equal, [choice.label for choice in all_chosen(EQUAL)])
+    summary = _summary(equal, EQUAL)
     picture = Path("images/table2.png")
     save(overall_figure(summary), options.out.parent / picture)
     options.out.write_text(
         page(
             summary,
-            summarised(own, [choice.label for choice in all_chosen(OWN)]),
-            rows=len(equal) + len(own),
+            _summary(own, OWN),
+            _summary(links, LINKS),
+            rows=len(equal) + len(own) + len(links),
             seeds=options.seeds,
             generated=options.generated,
             picture=picture,

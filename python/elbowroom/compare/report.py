@@ -270,6 +270,7 @@ def _boxes(task: TaskSummary, title: str) -> Figure:
 
 def overall_figure(summary: Summary) -> Figure:
     """Draw success, cost and time of the planners over all tasks."""
+
     def times(of: Overall) -> list[float]:
         cells = (cell for task in summary.tasks for cell in task.cells if cell.planner == of.planner)
         return [interval.value for cell in cells if (interval := cell.medians["time_s"]) is not None]
