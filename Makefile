@@ -9,6 +9,7 @@ demo: setup
 	@echo "Open out/paper/report.md, or the pictures in out/paper/paper-standin."
 
 test: setup
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --group extras || echo "Ray, OMPL or others do not install: their tests are left out"
 	cargo fmt --check
 	cargo clippy --workspace --all-targets -- -D warnings
 	cargo clippy -p elbowroom --lib --no-default-features -- -D warnings
