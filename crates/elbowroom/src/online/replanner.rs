@@ -34,6 +34,9 @@ const ASTRAY: f64 = 1e-6;
 /// Ways to get out of the way that are tried.
 const RETREATS: usize = 60;
 
+/// How long the arm waits at a rest on its way out of the way (s), at most.
+const LONGEST_WAIT: f64 = 4.0;
+
 /// How far a motion may stray from a path before the verifier is asked, in grid steps.
 const TOLERANCE: f64 = 1.0;
 
@@ -347,41 +350,72 @@ impl Search<'_> {
         })
     }
 
-    /// A safe motion to rest somewhere, on the spot or at places around, nearest first; if there is none, the one that is
-    /// safe the longest.
+    /// A safe motion to rest somewhere, on the spot or at places around, with rests in between if it must be; if there is
+    /// none, the one that is safe the longest.
     fn retreat(&self, rng: &mut ChaCha8Rng) -> (Motion, Verdict) {
         let stop = self.stop().unwrap_or_else(|| standing(&self.state.position, self.now, HOLD));
         let verdict = self.judge(&stop);
-        let mut best = (stop, verdict);
+        let mut best = (stop.clone(), verdict);
+        // Motions to rests, and until when the arm may stay there.
+        let mut rests = vec![(stop, clear_until(&best.1))];
         for i in 0..RETREATS {
             if best.1.is_safe() || !(self.keep_going)() {
                 break;
             }
             let far = 0.2 + 2.8 * i as f64 / RETREATS as f64;
-            let place: Vec<f64> = self
-                .state
-                .position
-                .iter()
-                .zip(self.scene.arm.joints())
-                .map(|(q, joint)| {
-                    let unit = (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-                    let to = q + far * (2.0 * unit - 1.0);
-                    match joint.limits {
-                        JointLimits::Continuous => to,
-                        JointLimits::Range { min, max } => to.clamp(min, max),
-                    }
-                })
-                .collect();
-            let places = [self.state.position.clone(), place];
-            let vias = vias_at(&places);
-            let Ok(Some(motion)) = departing(self.now, self.state, &vias, self.limits) else { continue };
+            let motion = if i % 2 == 0 {
+                let places = [self.state.position.clone(), self.near(&self.state.position, far, rng)];
+                departing(self.now, self.state, &vias_at(&places), self.limits).ok().flatten()
+            } else {
+                let (way, until) = &rests[(rng.next_u64() % rests.len() as u64) as usize];
+                let wait = unit(rng) * (until - way.end()).clamp(0.0, LONGEST_WAIT);
+                let to = self.near(&way.at(way.end()).position, far, rng);
+                self.going_on(way, wait, &to)
+            };
+            let Some(motion) = motion else { continue };
             let verdict = self.judge(&motion);
-            if clear_until(&verdict) > clear_until(&best.1) {
+            let until = clear_until(&verdict);
+            if until > motion.end() {
+                rests.push((motion.clone(), until));
+            }
+            if until > clear_until(&best.1) {
                 best = (motion, verdict);
             }
         }
         best
     }
+
+    /// `way`, a wait (s) at its end, and a straight turn to rest at `to` (rad).
+    fn going_on(&self, way: &Motion, wait: f64, to: &[f64]) -> Option<Motion> {
+        let rest = way.at(way.end()).position;
+        let places = [rest.clone(), to.to_vec()];
+        let vias = vias_at(&places);
+        let start = way.end() + wait;
+        let pieces = quintic_through(&vias, &fastest_durations(&vias, self.limits));
+        let later = pieces.into_iter().map(|piece| Piece { start: piece.start + start, ..piece }).collect();
+        let waited =
+            if wait > 0.0 { way.clone().then(standing(&rest, way.end(), wait)).ok()? } else { way.clone() };
+        waited.then(Motion::new(later).ok()?).ok()
+    }
+
+    /// A random place no farther than `far` (rad) from `q` in any joint, within the stops.
+    fn near(&self, q: &[f64], far: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
+        let joints = q.iter().zip(self.scene.arm.joints());
+        joints
+            .map(|(q, joint)| {
+                let to = q + far * (2.0 * unit(rng) - 1.0);
+                match joint.limits {
+                    JointLimits::Continuous => to,
+                    JointLimits::Range { min, max } => to.clamp(min, max),
+                }
+            })
+            .collect()
+    }
+}
+
+/// In [0, 1).
+fn unit(rng: &mut ChaCha8Rng) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
 /// When the first thing goes wrong (s); infinite if nothing does.

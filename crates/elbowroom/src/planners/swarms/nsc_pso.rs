@@ -125,7 +125,8 @@ fn shaken(
                 let share = k as f64 / (waypoints + 1) as f64;
                 start.iter().zip(goal).map(|(a, b)| a + (b - a) * share).collect()
             };
-            let costs = normalised(&(1..=waypoints).map(|k| track.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>());
+            let costs =
+                normalised(&(1..=waypoints).map(|k| track.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>());
             let shake = SHAKE * i as f64 / count as f64;
             let noise: Vec<Vec<f64>> = (0..joints).map(|_| smooth_noise(waypoints, rng)).collect();
             let mut position = Vec::with_capacity(waypoints * joints + 1);

@@ -1,0 +1,87 @@
+//! Whether an arm among moving discs is lost: a flood over configurations in time, which gives it every benefit of a doubt.
+
+use std::f64::consts::TAU;
+
+/// Width of a cell in both joints (rad).
+const CELL: f64 = 0.018_75;
+
+/// Time between two layers (s).
+const LAYER: f64 = 0.025;
+
+/// Cells that a joint gets ahead in one layer at 1.5 rad/s.
+const AHEAD: usize = 2;
+
+/// Two links of 25 cm and 1 cm half width on the origin, the first joint continuous, the second within 2.6 rad either way;
+/// both no faster than 1.5 rad/s.
+const LINK: f64 = 0.25;
+const HALF_WIDTH: f64 = 0.01;
+const STOP: f64 = 2.6;
+
+/// A disc: centre and radius (m).
+pub type Disc = ([f64; 2], f64);
+
+/// Whether no motion from `q` (rad), whatever its accelerations, keeps clear of `discs_at(time)` until `end` (s). A cell is
+/// given up only if the arm is in contact in all of it, and at an instant; so `true` is a proof, `false` is none.
+pub fn is_doomed(q: [f64; 2], end: f64, discs_at: impl Fn(f64) -> Vec<Disc>) -> bool {
+    let (wide, high) = ((TAU / CELL).ceil() as usize, (2.0 * STOP / CELL).ceil() as usize);
+    let cell = TAU / wide as f64;
+    let index = |i: usize, j: usize| i * high + j;
+    let mut open = vec![false; wide * high];
+    let first = [(q[0].rem_euclid(TAU) / cell) as usize % wide, ((q[1] + STOP) / CELL) as usize];
+    open[index(first[0], first[1].min(high - 1))] = true;
+    // How far a point of the arm may be from where it is in the middle of the cell.
+    let off = (2.0 * LINK * cell + LINK * CELL) / 2.0;
+    let layers = (end / LAYER) as usize;
+    for layer in 1..=layers {
+        open = spread(&spread(&open, wide, high), wide, high);
+        let discs = discs_at(LAYER * layer as f64);
+        for i in 0..wide {
+            let shoulder = (i as f64 + 0.5) * cell;
+            let elbow = [LINK * shoulder.cos(), LINK * shoulder.sin()];
+            let is_lost = |a: [f64; 2], b: [f64; 2], off: f64| {
+                discs.iter().any(|(center, radius)| distance(*center, a, b) < radius + HALF_WIDTH - off)
+            };
+            let first_lost = is_lost([0.0, 0.0], elbow, LINK * cell / 2.0);
+            for j in 0..high {
+                if !open[index(i, j)] {
+                    continue;
+                }
+                let angle = shoulder + (j as f64 + 0.5) * CELL - STOP;
+                let tip = [elbow[0] + LINK * angle.cos(), elbow[1] + LINK * angle.sin()];
+                open[index(i, j)] = !(first_lost || is_lost(elbow, tip, off));
+            }
+        }
+        if !open.contains(&true) {
+            return true;
+        }
+    }
+    false
+}
+
+/// One cell ahead in both joints, the first going round.
+fn spread(open: &[bool], wide: usize, high: usize) -> Vec<bool> {
+    const { assert!(AHEAD == 2) };
+    let mut along = vec![false; open.len()];
+    for i in 0..wide {
+        for j in 0..high {
+            along[i * high + j] =
+                (j.saturating_sub(1)..=(j + 1).min(high - 1)).any(|near| open[i * high + near]);
+        }
+    }
+    let mut both = vec![false; open.len()];
+    for i in 0..wide {
+        for near in [(i + wide - 1) % wide, i, (i + 1) % wide] {
+            for j in 0..high {
+                both[i * high + j] |= along[near * high + j];
+            }
+        }
+    }
+    both
+}
+
+fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
+    let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
+    let length = along[0] * along[0] + along[1] * along[1];
+    let share = ((along[0] * to[0] + along[1] * to[1]) / length).clamp(0.0, 1.0);
+    (to[0] - share * along[0]).hypot(to[1] - share * along[1])
+}
