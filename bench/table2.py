@@ -32,7 +32,15 @@ LINKS = "dstar-pso,ik-pso,cbpso:evaluations=60000"
 LINK_SCENES = tuple(SCENES / f"{name}-links.yaml" for name in ("three", "five", "ten"))
 
 
-def compared(scenes: Sequence[Path], planners: str, *, seeds: int, budget: int | None, out: Path) -> list[Row]:
+def compared(
+    scenes: Sequence[Path],
+    planners: str,
+    *,
+    seeds: int,
+    budget: int | None,
+    out: Path,
+    tasks: Sequence[str] | None = None,
+) -> list[Row]:
     """Return the rows, those made now and those that were there."""
 
     def show(done: int, total: int) -> None:
@@ -40,7 +48,8 @@ def compared(scenes: Sequence[Path], planners: str, *, seeds: int, budget: int |
             print(f"{out}: {done} of {total} runs", file=sys.stderr, flush=True)
 
     choices = all_chosen(planners)
-    return list(compare(scenes, planners=choices, out=out, seeds=range(seeds), budget=budget, show=show).rows)
+    done = compare(scenes, planners=choices, out=out, tasks=tasks, seeds=range(seeds), budget=budget, show=show)
+    return list(done.rows)
 
 
 def sections(summary: Summary, scenes: Sequence[Path] = EXAMPLES) -> str:
@@ -80,14 +89,16 @@ def main() -> None:
     """Make the rows that are missing, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=30)
-    parser.add_argument("--generated", type=int, default=50, help="random scenes, two tasks each")
+    parser.add_argument("--generated", type=int, default=50, help="random scenes")
+    parser.add_argument("--tasks", nargs="+", default=["first"], help="tasks to do in random scenes")
     parser.add_argument("--rows", type=Path, default=Path("out/table2"), help="folder of rows, which are kept")
     parser.add_argument("--out", type=Path, default=Path("docs/table2.md"))
     options = parser.parse_args()
     own = compared(EXAMPLES, OWN, seeds=options.seeds, budget=None, out=options.rows / "own")
     links = compared(LINK_SCENES, LINKS, seeds=options.seeds, budget=None, out=options.rows / "links")
-    scenes = [*EXAMPLES, *write_scenes(options.generated, options.rows / "scenes", seed=0)]
-    equal = compared(scenes, EQUAL, seeds=options.seeds, budget=BUDGET, out=options.rows / "equal")
+    drawn = write_scenes(options.generated, options.rows / "scenes", seed=0)
+    equal = compared(EXAMPLES, EQUAL, seeds=options.seeds, budget=BUDGET, out=options.rows / "equal")
+    equal += compared(drawn, EQUAL, seeds=options.seeds, budget=BUDGET, out=options.rows / "equal", tasks=options.tasks)
     summary = _summary(equal, EQUAL)
     picture = Path("images/table2.png")
     save(overall_figure(summary), options.out.parent / picture)

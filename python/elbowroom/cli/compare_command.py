@@ -16,13 +16,16 @@ from elbowroom.own_planners import OWN
 
 
 def compare_command(
-    scenes: Annotated[list[Path], typer.Argument(help="Scene files (YAML); all their tasks are planned.")],
+    scenes: Annotated[list[Path], typer.Argument(help="Scene files (YAML).")],
     planners: Annotated[
         str | None,
         typer.Option(
             help="Names with commas between, options as NAME:OPTION=VALUE:OPTION=VALUE; if left out all of elbowroom's "
             f"own: {', '.join(OWN)}."
         ),
+    ] = None,
+    tasks: Annotated[
+        str | None, typer.Option(help="Names with commas between, to be there in every scene; all if left out.")
     ] = None,
     seeds: Annotated[int, typer.Option(min=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
     budget: Annotated[
@@ -54,6 +57,7 @@ def compare_command(
                 scenes,
                 planners=choices,
                 out=out,
+                tasks=None if tasks is None else tasks.split(","),
                 seeds=range(seeds),
                 budget=budget,
                 timeout=timeout,
@@ -63,7 +67,13 @@ def compare_command(
                 show=count,
             )
             labels = [choice.label for choice in choices]
-            asked = {"--seeds": seeds, "--budget": budget, "--timeout": timeout, "--objective": objective}
+            asked = {
+                "--tasks": tasks,
+                "--seeds": seeds,
+                "--budget": budget,
+                "--timeout": timeout,
+                "--objective": objective,
+            }
             command = _command(scenes, {"--planners": ",".join(labels), **asked})
             say("drawing")
             report, *_ = write_report(done.rows, out, planners=labels, command=command, show=say)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
@@ -53,6 +53,7 @@ def compare(
     *,
     planners: Sequence[Choice],
     out: Path,
+    tasks: Collection[str] | None = None,
     seeds: Sequence[int] = range(30),
     budget: int | None = None,
     timeout: float | None = None,
@@ -61,7 +62,7 @@ def compare(
     on: Place = "local",
     show: Callable[[int, int], None] = lambda _done, _all: None,
 ) -> Comparison:
-    """Return the rows of all ``planners`` on all tasks of ``scenes`` for all ``seeds``.
+    """Return the rows of all ``planners`` on the tasks of ``scenes`` for all ``seeds``.
 
     The rows are kept in ``out``: those that are there are not run again, so a comparison that was stopped goes on.
 
@@ -69,6 +70,7 @@ def compare(
         scenes: Files.
         planners: As ``elbowroom.planners.all_chosen`` gives them.
         out: Folder of ``rows.jsonl``, made if need be.
+        tasks: Names of the tasks to do in each scene; None for all that it has.
         seeds: Of the planners.
         budget: Evaluations a run, for planners that take a number.
         timeout: When a run shall give up (s).
@@ -83,9 +85,17 @@ def compare(
         DamagedTable: The folder holds a table with a line that is no row.
     """
     _check(
-        scenes, planners=planners, seeds=seeds, budget=budget, timeout=timeout, objective=objective, jobs=jobs, on=on
+        scenes,
+        planners=planners,
+        tasks=tasks,
+        seeds=seeds,
+        budget=budget,
+        timeout=timeout,
+        objective=objective,
+        jobs=jobs,
+        on=on,
     )
-    asked = list(_asked(scenes, planners, seeds, budget=budget, timeout=timeout, objective=objective))
+    asked = list(_asked(scenes, planners, tasks, seeds, budget=budget, timeout=timeout, objective=objective))
     problems = [problem for batch in asked for problem in batch.problems]
     table = Table(out / "rows.jsonl")
     workers = jobs or cores()
@@ -116,6 +126,7 @@ def _check(
     scenes: Sequence[Path],
     *,
     planners: Sequence[Choice],
+    tasks: Collection[str] | None,
     seeds: Sequence[int],
     budget: int | None,
     timeout: float | None,
@@ -126,8 +137,8 @@ def _check(
     def refuse(message: str, setting: str) -> None:
         raise BadSetting(message, setting=setting)
 
-    for name, given in (("scenes", scenes), ("planners", planners), ("seeds", seeds)):
-        if not len(given):
+    for name, given in (("scenes", scenes), ("planners", planners), ("tasks", tasks), ("seeds", seeds)):
+        if given is not None and not len(given):
             refuse(f"no {name} to compare", name)
     if len(set(seeds)) != len(seeds) or not all(0 <= seed < 2**63 for seed in seeds):
         refuse("seeds are different whole numbers from 0 on", "seeds")
@@ -147,6 +158,7 @@ def _check(
 def _asked(
     scenes: Sequence[Path],
     planners: Sequence[Choice],
+    tasks: Collection[str] | None,
     seeds: Sequence[int],
     *,
     budget: int | None,
@@ -160,6 +172,9 @@ def _asked(
         scene = Scene.parse(text, file=str(path))
         if not scene.tasks:
             raise BadSetting(f"{path}: the scene has no tasks to compare on", setting="scenes")
+        for task in tasks or ():
+            if task not in scene.tasks:
+                raise BadSetting(f"{path} has no task '{task}', only {', '.join(scene.tasks)}", setting="tasks")
         problems = [
             Problem.of(
                 choice,
@@ -172,6 +187,7 @@ def _asked(
                 objective=objective,
             )
             for task in scene.tasks
+            if tasks is None or task in tasks
             for seed in seeds
             for choice in planners
         ]

@@ -34,6 +34,12 @@ const ASTRAY: f64 = 1e-6;
 /// Ways to get out of the way that are tried.
 const RETREATS: usize = 60;
 
+/// How far after its end a motion out of the way is looked at (s): not needed for it to be safe, but better.
+const FAR: f64 = 25.0;
+
+/// How much longer (s) another place has to be safe for the arm to go there.
+const WORTH_LEAVING: f64 = 1.0;
+
 /// How long the arm waits at a rest on its way out of the way (s), at most.
 const LONGEST_WAIT: f64 = 4.0;
 
@@ -155,9 +161,15 @@ impl Replanner {
             return self.run(motion, true, verdict);
         }
         if is_safe {
-            return self.keep(verdict_of_rest);
+            let may_look = !self.reaches_goal && self.updates.is_multiple_of(LOOK_EVERY);
+            let safer = rest.filter(|_| may_look).and_then(|rest| search.safer(&rest, &mut self.rng));
+            return match safer {
+                Some((motion, verdict)) => self.run(motion, false, verdict),
+                None => self.keep(verdict_of_rest),
+            };
         }
-        let (motion, verdict) = search.retreat(&mut self.rng);
+        let motion = search.retreat(&mut self.rng);
+        let verdict = search.judge(&motion);
         if verdict.is_safe() {
             return self.run(motion, false, verdict);
         }
@@ -212,6 +224,15 @@ struct Search<'a> {
 impl Search<'_> {
     /// The verifier on `motion`: to its end among all, and for [`HOLD`] more among those whose course is known.
     fn judge(&self, motion: &Motion) -> Verdict {
+        self.judge_holding(motion, HOLD)
+    }
+
+    /// Until when the arm is safe that runs `motion` and then stands, as far as is looked ahead (s).
+    fn safe_until(&self, motion: &Motion) -> f64 {
+        clear_until(&self.judge_holding(motion, FAR))
+    }
+
+    fn judge_holding(&self, motion: &Motion, hold: f64) -> Verdict {
         let settings = VerifySettings::default();
         let doubtful =
             |mover: &&Mover| matches!(mover.course(), Course::Unknown { .. } | Course::Chase { .. });
@@ -227,7 +248,7 @@ impl Search<'_> {
             .map(|mover| if doubtful(&mover) { mover.on(Course::Absent) } else { mover.clone() })
             .collect();
         let end = motion.end();
-        let held = standing(&motion.at(end).position, end, HOLD);
+        let held = standing(&motion.at(end).position, end, hold);
         match motion.clone().then(held) {
             Ok(held) => verify_among(self.scene, &certain, &held, &settings, &|| true),
             Err(_) => verify_among(self.scene, self.movers, motion, &settings, &|| true),
@@ -350,16 +371,25 @@ impl Search<'_> {
         })
     }
 
-    /// A safe motion to rest somewhere, on the spot or at places around, with rests in between if it must be; if there is
-    /// none, the one that is safe the longest.
-    fn retreat(&self, rng: &mut ChaCha8Rng) -> (Motion, Verdict) {
+    /// A safe motion that is so for longer than `rest`, which leads nowhere, if that is not safe as far as is looked ahead.
+    fn safer(&self, rest: &Motion, rng: &mut ChaCha8Rng) -> Option<(Motion, Verdict)> {
+        let until = self.safe_until(rest);
+        if until.is_infinite() {
+            return None;
+        }
+        let motion = self.retreat(rng);
+        (self.safe_until(&motion) > until + WORTH_LEAVING).then(|| self.safe(motion)).flatten()
+    }
+
+    /// A motion to rest somewhere, on the spot or at places around, with rests in between if it must be: one that is safe
+    /// as far as is looked ahead, or else the one that is safe the longest.
+    fn retreat(&self, rng: &mut ChaCha8Rng) -> Motion {
         let stop = self.stop().unwrap_or_else(|| standing(&self.state.position, self.now, HOLD));
-        let verdict = self.judge(&stop);
-        let mut best = (stop.clone(), verdict);
         // Motions to rests, and until when the arm may stay there.
-        let mut rests = vec![(stop, clear_until(&best.1))];
+        let mut rests = vec![(stop.clone(), self.safe_until(&stop))];
+        let (mut best, mut latest) = rests[0].clone();
         for i in 0..RETREATS {
-            if best.1.is_safe() || !(self.keep_going)() {
+            if latest.is_infinite() || !(self.keep_going)() {
                 break;
             }
             let far = 0.2 + 2.8 * i as f64 / RETREATS as f64;
@@ -373,13 +403,12 @@ impl Search<'_> {
                 self.going_on(way, wait, &to)
             };
             let Some(motion) = motion else { continue };
-            let verdict = self.judge(&motion);
-            let until = clear_until(&verdict);
+            let until = self.safe_until(&motion);
             if until > motion.end() {
                 rests.push((motion.clone(), until));
             }
-            if until > clear_until(&best.1) {
-                best = (motion, verdict);
+            if until > latest {
+                (best, latest) = (motion, until);
             }
         }
         best

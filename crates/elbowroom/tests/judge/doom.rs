@@ -18,11 +18,11 @@ const HALF_WIDTH: f64 = 0.01;
 const STOP: f64 = 2.6;
 
 /// A disc: centre and radius (m).
-pub type Disc = ([f64; 2], f64);
+pub(crate) type Disc = ([f64; 2], f64);
 
 /// Whether no motion from `q` (rad), whatever its accelerations, keeps clear of `discs_at(time)` until `end` (s). A cell is
 /// given up only if the arm is in contact in all of it, and at an instant; so `true` is a proof, `false` is none.
-pub fn is_doomed(q: [f64; 2], end: f64, discs_at: impl Fn(f64) -> Vec<Disc>) -> bool {
+pub(crate) fn is_doomed(q: [f64; 2], end: f64, discs_at: impl Fn(f64) -> Vec<Disc>) -> bool {
     let (wide, high) = ((TAU / CELL).ceil() as usize, (2.0 * STOP / CELL).ceil() as usize);
     let cell = TAU / wide as f64;
     let index = |i: usize, j: usize| i * high + j;
