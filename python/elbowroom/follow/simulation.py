@@ -23,6 +23,9 @@ MOST_STEPS = 100_000
 MOST_RECORDED = 10_000
 """Way-points that a course has at most; one that chases gets one a step."""
 
+AT_REST = 1e-6
+"""An arm this near to a place, in all joints, and this slow, is at rest there (rad, rad/s, rad/s²)."""
+
 LONGEST_ROW = 10
 """Samples of what was followed are at most so far apart (ms); the joints' polynomials begin and end at whole ones."""
 
@@ -89,7 +92,7 @@ def follow(
                 seconds=update.seconds,
             )
         )
-        reached = update.reaches_goal and now >= update.motion.end - 1e-9
+        reached = update.reaches_goal and _rests(q, v, a, update.at(update.motion.end).q[0])
         given_up = timeout is not None and time.monotonic() - begun >= timeout
         if reached or given_up or k == steps_at_most:
             break
@@ -118,6 +121,11 @@ def follow(
         reached=reached,
         given_up=given_up and not reached,
     )
+
+
+def _rests(q: Floats, v: Floats, a: Floats, place: Floats) -> bool:
+    """Whether an arm in that state has come to rest at ``place``."""
+    return bool(np.all(np.abs(q - place) < AT_REST) and np.all(np.abs(v) < AT_REST) and np.all(np.abs(a) < AT_REST))
 
 
 def _period(rate: float) -> int:
