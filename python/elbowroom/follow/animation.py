@@ -20,10 +20,11 @@ from elbowroom.figures.style import CM, INK, PATH, SMOOTHED, legend_beside, mark
 from elbowroom.figures.style import mark_ends, plane
 from elbowroom.follow.courses import middle, shifts
 from elbowroom.follow.followed import Followed, Step
+from elbowroom.follow.goal import Goal
 from elbowroom.known import Known, Sighting
 from elbowroom.plan import Floats
 from elbowroom.replanner import sampled
-from elbowroom.scene import Circle, Configuration, ObstacleMotion, Pair, Polygon
+from elbowroom.scene import Circle, ObstacleMotion, Polygon
 
 AHEAD = 1.0
 """Arrows show where an obstacle goes within so long (s)."""
@@ -45,7 +46,7 @@ class _DrawnMover:
     """An obstacle that moves, as large as it is: filled once it is seen, with what is known of its way."""
 
     def __init__(self, axes: Axes, obstacle: Circle | Polygon) -> None:
-        self.obstacle = obstacle
+        self.axes, self.obstacle = axes, obstacle
         look = {"edgecolor": INK, "linewidth": 1.2, "zorder": 3.2}
         if isinstance(obstacle, Circle):
             self.outline: Patch = CirclePatch((0.0, 0.0), obstacle.radius * CM, **look)
@@ -67,11 +68,11 @@ class _DrawnMover:
         place = (middle(self.obstacle) + shift) * CM
         if isinstance(self.outline, CirclePatch):
             self.outline.set_center((place[0], place[1]))
-            top = place[1] + self.obstacle.radius * CM
+            half = self.obstacle.radius * CM  # type: ignore[union-attr]
         else:
             corners = (np.array(self.obstacle.vertices) + shift) * CM
             self.outline.set_xy(corners)
-            top = corners[:, 1].max()
+            half = float(np.ptp(corners[:, 1])) / 2.0
         self.outline.set_facecolor("none" if known is None else MOVING)
         self.outline.set_linestyle("--" if known is None else "-")
         length = float(np.hypot(*way)) * CM
@@ -84,7 +85,12 @@ class _DrawnMover:
             self.doubt.set_radius((size + (known.greatest_speed or 0.0) * AHEAD) * CM)
         artists: list[Artist] = [self.outline, self.arrow, self.doubt]
         if self.name is not None:
-            self.name.set_position((place[0], top + 1.0))
+            # Not where the arrow is, nor where the obstacle is out of sight.
+            side = -1.0 if way[1] > 0.0 else 1.0
+            self.name.set_position((place[0], place[1] + side * (half + 1.0)))
+            self.name.set_verticalalignment("top" if side < 0.0 else "bottom")
+            x, y = self.axes.get_xlim(), self.axes.get_ylim()
+            self.name.set_visible(x[0] <= place[0] <= x[1] and y[0] <= place[1] <= y[1])
             artists.append(self.name)
         return artists
 
@@ -103,7 +109,7 @@ def animate(followed: Followed, path: Path) -> Path:
     still = [obstacle for obstacle in scene.obstacles if obstacle.motion is None]
     figure, axes = plane(f"task '{followed.task}' at {followed.rate:g} updates a second", replace(scene, obstacles=still))
     figure.set_dpi(80)
-    start, goal = samples.tip[0], _goal(followed)
+    start, goal = samples.tip[0], Goal.of(followed.scene, followed.task).tip
     mark_ends(axes, (start[0], start[1]), (goal[0], goal[1]))
     mark_base(axes, scene)
     trail = axes.plot([], [], color=SMOOTHED, linewidth=1.8, zorder=4, label="tip so far")[0]
@@ -137,14 +143,6 @@ def animate(followed: Followed, path: Path) -> Path:
     moving_picture = FuncAnimation(figure, show, frames=frames + 1 + END)
     moving_picture.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND))
     return path
-
-
-def _goal(followed: Followed) -> Pair:
-    goal = followed.scene.tasks[followed.task].goal
-    if isinstance(goal, Configuration):
-        x, y = followed.scene.core.link_ends(np.array([goal.q]))[0, -1]
-        return (float(x), float(y))
-    return goal
 
 
 def _planned_tip(followed: Followed, step: Step, now: float) -> Floats:

@@ -12,6 +12,7 @@ from elbowroom.check import check
 from elbowroom.errors import BadSetting
 from elbowroom.follow.courses import as_recorded
 from elbowroom.follow.followed import Followed, Step
+from elbowroom.follow.goal import Goal
 from elbowroom.plan import Floats
 from elbowroom.replanner import Replanner, sampled
 from elbowroom.scene import Pair, Scene
@@ -22,9 +23,6 @@ MOST_STEPS = 100_000
 
 MOST_RECORDED = 10_000
 """Way-points that a course has at most; one that chases gets one a step."""
-
-AT_REST = 1e-6
-"""An arm this near to a place, in all joints, and this slow, is at rest there (rad, rad/s, rad/s²)."""
 
 LONGEST_ROW = 10
 """Samples of what was followed are at most so far apart (ms); the joints' polynomials begin and end at whole ones."""
@@ -65,6 +63,7 @@ def follow(
     if timeout is not None and not timeout >= 0.0:
         raise BadSetting(f"timeout is {timeout} s, it must not be negative", setting="timeout")
     replanner = Replanner(scene, task=task, seed=seed)
+    goal = Goal.of(scene, replanner.task)
     world = World(scene)
     chasers = [i for i, obstacle in enumerate(scene.obstacles) if obstacle.motion and obstacle.motion.chases]
     recorded: dict[int, list[tuple[float, Pair]]] = {i: [(0.0, world.shifts[i])] for i in chasers}
@@ -87,12 +86,12 @@ def follow(
                 known=known,
                 decision=update.decision,
                 motion=update.motion,
-                reaches_goal=update.reaches_goal,
+                reaches_goal=update.reaches_goal and goal.is_at(update.at(update.motion.end)),
                 safe=update.safe,
                 seconds=update.seconds,
             )
         )
-        reached = update.reaches_goal and _rests(q, v, a, update.at(update.motion.end).q[0])
+        reached = goal.is_at(update.at(now))
         given_up = timeout is not None and time.monotonic() - begun >= timeout
         if reached or given_up or k == steps_at_most:
             break
@@ -121,11 +120,6 @@ def follow(
         reached=reached,
         given_up=given_up and not reached,
     )
-
-
-def _rests(q: Floats, v: Floats, a: Floats, place: Floats) -> bool:
-    """Whether an arm in that state has come to rest at ``place``."""
-    return bool(np.all(np.abs(q - place) < AT_REST) and np.all(np.abs(v) < AT_REST) and np.all(np.abs(a) < AT_REST))
 
 
 def _period(rate: float) -> int:
