@@ -19,7 +19,7 @@ from elbowroom.errors import (
     UnknownTask,
 )
 from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
-from elbowroom.known import Sighting
+from elbowroom.known import Known, Sighting
 from elbowroom.plan import Plan, plan, plan_as_in_paper
 from elbowroom.replanner import Replanner, Update
 from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Task
@@ -39,6 +39,7 @@ __all__ = [
     "Grid",
     "InternalError",
     "Joint",
+    "Known",
     "NoPath",
     "NotFound",
     "NotFree",

@@ -11,7 +11,7 @@ from elbowroom.scene import ObstacleMotion, Pair, Scene
 
 @dataclass(frozen=True, kw_only=True)
 class Sighting:
-    """An obstacle was seen at ``time`` (s), shifted by ``shift`` from where the scene has it (m); its course is unknown.
+    """An obstacle was seen at ``time`` (s), ``shift`` away from where the scene has it (m); its course is unknown.
 
     From there it may have gone anywhere at its greatest speed (m/s), that of the scene where none is given.
     """

@@ -27,8 +27,8 @@ class Update:
     """What an update came to.
 
     Attributes:
-        decision: ``keep`` the motion that runs, run a ``new`` one from now on, or come to rest on one that is not proved
-            to be safe, because nothing better was found in time: ``stop``.
+        decision: ``keep`` the motion that runs, run a ``new`` one from now on, or ``stop``: come to rest on one that is
+            not proved to be safe, because nothing better was found in time.
         motion: The one that now runs, in the replanner's time; it ends at rest, and after its end the arm stands.
         reaches_goal: Whether it ends at the goal.
         verdict: What the verifier says of what is left of it: until the arm has come to rest and, among obstacles whose
@@ -93,6 +93,12 @@ class Replanner:
     def __init__(self, scene: Scene, *, task: str | None = None, seed: int = 0, q: ArrayLike | None = None) -> None:
         if not 0 <= seed < 2**63:
             raise BadSetting(f"seed is {seed}, it must be a whole number from 0 on", setting="seed")
+        if len(scene.arm.links) != 2:
+            raise BadSetting(
+                "planning while the arm moves needs an arm of 2 links; the arm of this scene has "
+                f"{len(scene.arm.links)}",
+                setting="arm",
+            )
         self.scene = scene
         self.task = only_task(scene, task)
         self.seed = seed
@@ -130,8 +136,8 @@ class Replanner:
         """Return what the arm is to do now.
 
         Args:
-            known: What is known of the obstacles that move, by name or place among the scene's: a course, a sighting, or
-                None for one that is not there as far as anyone knows. One left out has the course of the scene.
+            known: What is known of the obstacles that move, by name or place among the scene's: a course, a sighting,
+                or None for one that is not there as far as anyone knows. One left out has the course of the scene.
             now: What time it is (s), of the clock that the courses go by.
             q: Where the joints are (rad).
             v: Their velocities (rad/s); None for an arm at rest.

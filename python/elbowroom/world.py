@@ -57,7 +57,7 @@ class World:
 
 
 def _known(part: dict[str, object]) -> Known:
-    return (Sighting if "time" in part else ObstacleMotion)(**part)  # type: ignore[arg-type,return-value]
+    return (Sighting if "time" in part else ObstacleMotion)(**part)  # type: ignore[arg-type]
 
 
 def joint_values(name: str, values: ArrayLike) -> Floats:

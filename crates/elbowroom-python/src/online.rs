@@ -108,11 +108,8 @@ impl Replanner {
             .into_iter()
             .map(|(index, part)| mover(py, scene, index, part))
             .collect::<PyResult<Vec<_>>>()?;
-        let state = State {
-            velocity: pair(py, "v", &v)?.to_vec(),
-            acceleration: pair(py, "a", &a)?.to_vec(),
-            ..State::rest(&pair(py, "q", &q)?)
-        };
+        let [q, v, a] = [pair(py, "q", &q)?, pair(py, "v", &v)?, pair(py, "a", &a)?];
+        let state = State { velocity: v.to_vec(), acceleration: a.to_vec(), ..State::rest(&q) };
         let (found, _) = watch::run(py, deadline, None, |watch| {
             let mut replanner = self.replanner.lock().ok()?;
             let update = replanner.update(&movers, now, &state, &|| watch.keep_going());

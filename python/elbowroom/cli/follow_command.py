@@ -20,7 +20,8 @@ def follow_command(
     horizon: Annotated[float, typer.Option(help="How long the arm has (s, simulated).")] = 60.0,
     seed: Annotated[int, typer.Option(help="Of what is drawn by lot.")] = 0,
     deadline: Annotated[
-        float | None, typer.Option(help="Cut every update short after so many seconds; decisions then depend on the clock.")
+        float | None,
+        typer.Option(help="Cut every update short after so many seconds; decisions then depend on the clock."),
     ] = None,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds (real).")] = None,
     out: Annotated[

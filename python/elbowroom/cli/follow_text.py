@@ -16,13 +16,14 @@ def in_words(followed: Followed) -> str:
         end = f"given up after {followed.duration:.2f} s, the goal not reached"
     else:
         end = f"the goal not reached within {followed.horizon:g} s"
-    decisions, spent = found["decisions"], found["update_s"]
+    decisions = found["decisions"]
+    spent = {name: f"{value * 1e3:.2f} ms" for name, value in found["update_s"].items()}
     lines = [
         f"task '{followed.task}': {end}",
-        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, {decisions['stop']} stops; "
-        f"median {spent['median'] * 1e3:.2f} ms, p99 {spent['p99'] * 1e3:.2f} ms, p99.9 {spent['p99.9'] * 1e3:.2f} ms",
+        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, {decisions['stop']} stops",
+        f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
-    if late := spent["longer_than_a_step"]:
+    if late := found["update_s"]["longer_than_a_step"]:
         lines.append(f"{late} updates took longer than a step")
     if doubtful := found["updates_not_safe"]:
         lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")

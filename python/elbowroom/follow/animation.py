@@ -16,8 +16,7 @@ from matplotlib.patches import Polygon as PolygonPatch
 
 from elbowroom.figures.animation import FRAMES_PER_SECOND, MOST_FRAMES
 from elbowroom.figures.links import DrawnArm, link_legend
-from elbowroom.figures.style import CM, INK, PATH, SMOOTHED, legend_beside, mark_base
-from elbowroom.figures.style import mark_ends, plane
+from elbowroom.figures.style import CM, INK, PATH, SMOOTHED, legend_beside, mark_base, mark_ends, plane
 from elbowroom.follow.courses import middle, shifts
 from elbowroom.follow.followed import Followed, Step
 from elbowroom.follow.goal import Goal
@@ -49,11 +48,21 @@ class _DrawnMover:
         self.axes, self.obstacle = axes, obstacle
         look = {"edgecolor": INK, "linewidth": 1.2, "zorder": 3.2}
         if isinstance(obstacle, Circle):
-            self.outline: Patch = CirclePatch((0.0, 0.0), obstacle.radius * CM, **look)
+            self.corners: Floats = np.zeros((0, 2))
+            self.outline: CirclePatch | PolygonPatch = CirclePatch((0.0, 0.0), obstacle.radius * CM, **look)
         else:
+            self.corners = np.array(obstacle.vertices)
             self.outline = PolygonPatch(np.zeros((1, 2)), closed=True, **look)
         self.arrow = FancyArrowPatch(
-            (0, 0), (1, 1), arrowstyle="-|>", mutation_scale=11, color=INK, linewidth=1.3, shrinkA=0, shrinkB=0, zorder=3.6
+            (0, 0),
+            (1, 1),
+            arrowstyle="-|>",
+            mutation_scale=11,
+            color=INK,
+            linewidth=1.3,
+            shrinkA=0,
+            shrinkB=0,
+            zorder=3.6,
         )
         self.doubt = CirclePatch((0.0, 0.0), 1.0, fill=False, edgecolor=INK, linestyle=":", linewidth=1.2, zorder=3.1)
         for artist in (self.outline, self.arrow, self.doubt):
@@ -68,9 +77,9 @@ class _DrawnMover:
         place = (middle(self.obstacle) + shift) * CM
         if isinstance(self.outline, CirclePatch):
             self.outline.set_center((place[0], place[1]))
-            half = self.obstacle.radius * CM  # type: ignore[union-attr]
+            half = self.outline.radius
         else:
-            corners = (np.array(self.obstacle.vertices) + shift) * CM
+            corners = (self.corners + shift) * CM
             self.outline.set_xy(corners)
             half = float(np.ptp(corners[:, 1])) / 2.0
         self.outline.set_facecolor("none" if known is None else MOVING)
@@ -107,7 +116,9 @@ def animate(followed: Followed, path: Path) -> Path:
     samples = sampled(followed.scene, followed.check.motion, t)
     scene = followed.true_scene
     still = [obstacle for obstacle in scene.obstacles if obstacle.motion is None]
-    figure, axes = plane(f"task '{followed.task}' at {followed.rate:g} updates a second", replace(scene, obstacles=still))
+    figure, axes = plane(
+        f"task '{followed.task}' at {followed.rate:g} updates a second", replace(scene, obstacles=still)
+    )
     figure.set_dpi(80)
     start, goal = samples.tip[0], Goal.of(followed.scene, followed.task).tip
     mark_ends(axes, (start[0], start[1]), (goal[0], goal[1]))

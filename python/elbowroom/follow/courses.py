@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from elbowroom.scene import Circle, ObstacleMotion, Pair, Polygon, Scene
 
 
 def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
-    """Return how far an obstacle on a known course is from where the scene has it at ``t`` (s), shape ``(n, 2)`` (m)."""
+    """Return how far an obstacle on a known course is from where the scene has it at ``t`` (s), ``(n, 2)`` (m)."""
     if motion is not None and motion.waypoints is not None:
         times = np.array([time for time, _ in motion.waypoints])
         places = np.array([shift for _, shift in motion.waypoints], dtype=np.float64)
@@ -40,7 +40,7 @@ def middle(obstacle: Circle | Polygon) -> Floats:
     return centre
 
 
-def as_recorded(scene: Scene, recorded: dict[int, Sequence[tuple[float, Pair]]]) -> Scene:
+def as_recorded(scene: Scene, recorded: Mapping[int, Sequence[tuple[float, Pair]]]) -> Scene:
     """Return ``scene`` with obstacles on the ways that were ``recorded``: times (s) and shifts (m), by their place."""
     obstacles = list(scene.obstacles)
     for index, points in recorded.items():
@@ -53,5 +53,7 @@ def _without_needless(points: Sequence[tuple[float, Pair]]) -> list[tuple[float,
     """Leave out the points at which an obstacle just goes on standing."""
     last = len(points) - 1
     return [
-        point for i, point in enumerate(points) if i in (0, last) or not points[i - 1][1] == point[1] == points[i + 1][1]
+        point
+        for i, point in enumerate(points)
+        if i in (0, last) or not points[i - 1][1] == point[1] == points[i + 1][1]
     ]

@@ -8,8 +8,19 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from elbowroom.figures.style import COLLISION, COLOURS, DASHES, INK, LINK_1, OBSTACLE, PATH, START, legend_beside
-from elbowroom.figures.style import new_figure, save
+from elbowroom.figures.style import (
+    COLLISION,
+    COLOURS,
+    DASHES,
+    INK,
+    LINK_1,
+    OBSTACLE,
+    PATH,
+    START,
+    legend_beside,
+    new_figure,
+    save,
+)
 from elbowroom.follow.clearances import clearances
 from elbowroom.follow.followed import Followed
 
@@ -47,9 +58,7 @@ def latency(followed: Followed) -> Figure:
 
 
 def clearance(followed: Followed) -> Figure:
-    """Return the clearance from each moving obstacle and from those that stand over time, contact marked, grey while an
-    obstacle is not seen.
-    """
+    """Return the clearance from each moving obstacle and from those that stand still over time, contact marked."""
     figure, axes = new_figure(width=7.4, height=3.8)
     t = followed.samples.t
     found = clearances(followed)
