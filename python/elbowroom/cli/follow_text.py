@@ -20,7 +20,8 @@ def in_words(followed: Followed) -> str:
     spent = {name: f"{value * 1e3:.2f} ms" for name, value in found["update_s"].items()}
     lines = [
         f"task '{followed.task}': {end}",
-        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, {decisions['stop']} stops",
+        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, "
+        f"{decisions['stop']} stops",
         f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
     if late := found["update_s"]["longer_than_a_step"]:
