@@ -19,8 +19,11 @@ from elbowroom.errors import (
     UnknownTask,
 )
 from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
+from elbowroom.known import Known, Sighting
 from elbowroom.plan import Plan, plan, plan_as_in_paper
+from elbowroom.replanner import Replanner, Update
 from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Task
+from elbowroom.world import World
 
 __version__ = version("elbowroom")
 
@@ -36,18 +39,23 @@ __all__ = [
     "Grid",
     "InternalError",
     "Joint",
+    "Known",
     "NoPath",
     "NotFound",
     "NotFree",
     "ObstacleMotion",
     "Plan",
     "Polygon",
+    "Replanner",
     "Scene",
     "SceneError",
+    "Sighting",
     "Task",
     "TimedOut",
     "TrajectoryError",
     "UnknownTask",
+    "Update",
+    "World",
     "__version__",
     "check",
     "check_file",

@@ -1,10 +1,11 @@
 from collections.abc import Callable, Sequence
-from typing import Any, final
+from typing import Any, Literal, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from elbowroom import scene
+from elbowroom.known import Known
 from elbowroom.verdict import Verdict
 
 __all__ = [
@@ -13,8 +14,10 @@ __all__ = [
     "Motion",
     "PaperPlan",
     "Plan",
+    "Replanner",
     "Scene",
     "SceneFile",
+    "World",
     "__version__",
     "free_space",
     "interpolated",
@@ -62,6 +65,8 @@ class Motion:
     @property
     def duration(self) -> float: ...
     @property
+    def end(self) -> float: ...
+    @property
     def starts(self) -> NDArray[np.float64]: ...
     @property
     def durations(self) -> NDArray[np.float64]: ...
@@ -70,6 +75,37 @@ class Motion:
     def sample(
         self, times: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]: ...
+
+@final
+class Replanner:
+    def __new__(cls, scene: Scene, task: str, *, seed: int, q: NDArray[np.float64] | None = None) -> Replanner: ...
+    @property
+    def start(self) -> NDArray[np.float64]: ...
+    @property
+    def motion(self) -> Motion: ...
+    @property
+    def reaches_goal(self) -> bool: ...
+    def update(
+        self,
+        scene: Scene,
+        known: Sequence[tuple[int, Known]],
+        *,
+        now: float,
+        q: NDArray[np.float64],
+        v: NDArray[np.float64],
+        a: NDArray[np.float64],
+        deadline: float | None = None,
+    ) -> tuple[Literal["keep", "new", "stop"], Motion, bool, Verdict]: ...
+
+@final
+class World:
+    def __new__(cls, scene: Scene) -> World: ...
+    @property
+    def now(self) -> float: ...
+    def advance(self, now: float, *, q: NDArray[np.float64]) -> None: ...
+    @property
+    def shifts(self) -> NDArray[np.float64]: ...
+    def known(self, *, q: NDArray[np.float64]) -> list[tuple[int, dict[str, Any] | None]]: ...
 
 @final
 class PaperPlan:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from elbowroom._core import TICK, __version__
-from elbowroom.plan import Plan
+from elbowroom.plan import Plan, Samples
 from elbowroom.trajectory_files import RATES, columns_of
 
 
@@ -66,7 +66,11 @@ def write_plan(plan: Plan, folder: Path) -> list[Path]:
 
 def as_csv(plan: Plan) -> str:
     """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
-    samples = plan.sample(period=TICK)
+    return table(plan.sample(period=TICK))
+
+
+def table(samples: Samples) -> str:
+    """Return ``samples`` as the text of a ``trajectory.csv``, floats that round-trip."""
     values = [samples.t, *samples.q.T, *samples.v.T, *samples.a.T, *samples.tip.T]
     rows = zip(*(column.tolist() for column in values), strict=True)
     header = ",".join(columns(samples.q.shape[1]))

@@ -5,6 +5,7 @@ mod check;
 mod errors;
 mod free_space;
 mod motion;
+mod online;
 mod paper;
 mod plan;
 mod scene;
@@ -22,6 +23,8 @@ mod _core {
     use super::free_space::{FreeSpace, free_space};
     #[pymodule_export]
     use super::motion::Motion;
+    #[pymodule_export]
+    use super::online::{Replanner, World};
     #[pymodule_export]
     use super::paper::{PaperPlan, plan_as_in_paper};
     #[pymodule_export]

@@ -23,6 +23,12 @@ impl Motion {
         self.0.duration()
     }
 
+    /// When it ends (s).
+    #[getter]
+    fn end(&self) -> f64 {
+        self.0.end()
+    }
+
     /// When each piece begins, shape ``(pieces,)`` (s).
     #[getter]
     fn starts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {

@@ -39,6 +39,11 @@ impl Scene {
     /// The scene with its arm of two links, for `what` cannot do with another.
     pub(crate) fn two_link(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
         self.still(py, what)?;
+        self.two_link_moving(py, what)
+    }
+
+    /// The same for `what` also serves obstacles that move.
+    pub(crate) fn two_link_moving(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
         self.two_link.as_ref().ok_or_else(|| {
             let message = format!(
                 "{what} needs an arm of 2 links; the arm of this scene has {}",
@@ -237,7 +242,7 @@ fn arm_parts<'py>(py: Python<'py>, arm: &PlanarArm) -> PyResult<Bound<'py, PyDic
 }
 
 /// How an obstacle moves, with the names of the dataclass's fields.
-fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Bound<'py, PyDict>> {
     let part = PyDict::new(py);
     match mover.course() {
         Course::Waypoints(points) => {

@@ -52,6 +52,13 @@ pub(crate) struct MotionPart {
     sensing_radius: Option<f64>,
 }
 
+/// What is known of an obstacle that moves: its course, or where it was seen.
+#[derive(FromPyObject)]
+pub(crate) enum KnownPart {
+    Motion(MotionPart),
+    Sighting { shift: [f64; 2], time: f64, greatest_speed: Option<f64> },
+}
+
 #[derive(FromPyObject)]
 pub(crate) enum PlacePart {
     Configuration { q: Vec<f64> },
@@ -149,6 +156,25 @@ impl MotionPart {
             return Err(refused("greatest_speed is needed beside chases"));
         }
         Mover::new(index, course, sight, self.greatest_speed).map_err(|error| refused(&error.to_string()))
+    }
+}
+
+impl KnownPart {
+    /// The obstacle that the scene declares to move as `declared`, as it is known.
+    pub(crate) fn build(self, py: Python<'_>, index: usize, declared: &Mover) -> PyResult<Mover> {
+        let refused = |message: &str| errors::setting(py, "known", &format!("known[{index}]: {message}"));
+        match self {
+            Self::Motion(motion) if motion.chases => {
+                Err(refused("nobody knows the course of what chases; a Sighting says where it was seen"))
+            }
+            Self::Motion(motion) => motion.build(py, index),
+            Self::Sighting { shift: [x, y], time, greatest_speed } => {
+                let course = Course::Unknown { seen: time, shift: Vector::new(x, y) };
+                let speed = greatest_speed.unwrap_or_else(|| declared.greatest_speed());
+                Mover::new(index, course, Sight::Always, Some(speed))
+                    .map_err(|error| refused(&error.to_string()))
+            }
+        }
     }
 }
 

@@ -8,6 +8,7 @@ import typer
 
 from elbowroom.cli.check_command import check_command
 from elbowroom.cli.compare_command import compare_command
+from elbowroom.cli.follow_command import follow_command
 from elbowroom.cli.generate_command import generate_command
 from elbowroom.cli.map_command import map_command
 from elbowroom.cli.paper_command import paper_command
@@ -25,6 +26,7 @@ app = typer.Typer(
 app.command("plan")(plan_command)
 app.command("check")(check_command)
 app.command("map")(map_command)
+app.command("follow")(follow_command)
 app.command("paper")(paper_command)
 app.command("compare")(compare_command)
 app.command("generate")(generate_command)

@@ -1,0 +1,267 @@
+//! Planning while the arm moves: the replanner, and a world to try it in.
+
+use std::sync::Mutex;
+
+use elbowroom::arm::{Configuration, Posture};
+use elbowroom::free_space::configurations;
+use elbowroom::online::{self, Decision, ReplanError};
+use elbowroom::planners::Monitor;
+use elbowroom::scene::{self, Course, Mover, Place, Task, TaskPosture};
+use elbowroom::trajectory::State;
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+
+use crate::errors;
+use crate::motion::Motion;
+use crate::scene::{Scene, motion_parts};
+use crate::scene_parts::KnownPart;
+use crate::verdict;
+use crate::watch;
+
+const WHAT: &str = "planning while the arm moves";
+
+/// Keeps an arm of two links going to a goal, safely, among obstacles that move.
+#[pyclass(frozen, module = "elbowroom._core")]
+pub(crate) struct Replanner {
+    replanner: Mutex<online::Replanner>,
+    start: Configuration<2>,
+}
+
+/// The decision's name, the motion that now runs, whether it ends at a goal, and the verifier's verdict on what is left of it.
+type Update<'py> = (&'static str, Motion, bool, Bound<'py, PyDict>);
+
+#[pymethods]
+impl Replanner {
+    /// For the arm of ``scene`` standing at ``q``, or where ``task`` starts, to get to its goal.
+    ///
+    /// Raises:
+    ///     UnknownTask: The scene has no such task.
+    ///     NotFree: The arm cannot stand at the start now, or at the goal whatever moves.
+    ///     BadSetting: The arm has more than two links, or the task asks for a posture to be kept.
+    #[new]
+    #[pyo3(signature = (scene, task, *, seed, q=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Scene,
+        task: &str,
+        seed: u64,
+        q: Option<PyReadonlyArray1<'_, f64>>,
+    ) -> PyResult<Self> {
+        let asked = scene.task(py, task)?;
+        let flat = scene.two_link_moving(py, WHAT)?;
+        let start = match q {
+            Some(q) => Place::Configuration(pair(py, "q", &q)?.to_vec()),
+            None => asked.start.clone(),
+        };
+        let mut now = flat.clone();
+        now.obstacles = online::World::new(flat.clone(), scene.movers.clone()).obstacles();
+        let starts = py.detach(|| configurations(&now, &start));
+        let starts = starts.map_err(|refused| errors::not_free(py, task, "start", &refused))?;
+        let Some(&start) = starts.first() else { return Err(errors::internal(py, "no start")) };
+        let goal = goal(py, flat, &scene.movers, asked)?;
+        let made = py.detach(|| online::Replanner::new(flat.clone(), &scene.movers, start, &goal, seed));
+        match made {
+            Ok(replanner) => Ok(Self { replanner: Mutex::new(replanner), start }),
+            Err(ReplanError::Goal(refused)) => Err(errors::not_free(py, task, "goal", &refused)),
+        }
+    }
+
+    /// Where the arm stands at the beginning, shape ``(2,)`` (rad).
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        self.start.0.to_vec().into_pyarray(py)
+    }
+
+    /// The motion that runs; before its start and after its end the arm stands.
+    #[getter]
+    fn motion(&self, py: Python<'_>) -> PyResult<Motion> {
+        self.ask(py, |replanner| Motion(replanner.motion().clone()))
+    }
+
+    /// Whether it ends at a goal.
+    #[getter]
+    fn reaches_goal(&self, py: Python<'_>) -> PyResult<bool> {
+        self.ask(py, online::Replanner::reaches_goal)
+    }
+
+    /// Return what to do ``now`` (s) with the arm at ``q``, ``v``, ``a`` and what is ``known`` of the obstacles that move:
+    /// the decision, the motion that now runs, whether it ends at a goal, and the verdict on what is left of it.
+    ///
+    /// Raises:
+    ///     BadSetting: A number makes no sense, or what is known does not fit the scene.
+    #[pyo3(signature = (scene, known, *, now, q, v, a, deadline=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+    fn update<'py>(
+        &self,
+        py: Python<'py>,
+        scene: &Scene,
+        known: Vec<(usize, Option<KnownPart>)>,
+        now: f64,
+        q: PyReadonlyArray1<'py, f64>,
+        v: PyReadonlyArray1<'py, f64>,
+        a: PyReadonlyArray1<'py, f64>,
+        deadline: Option<f64>,
+    ) -> PyResult<Update<'py>> {
+        let movers = known
+            .into_iter()
+            .map(|(index, part)| mover(py, scene, index, part))
+            .collect::<PyResult<Vec<_>>>()?;
+        let [q, v, a] = [pair(py, "q", &q)?, pair(py, "v", &v)?, pair(py, "a", &a)?];
+        let state = State { velocity: v.to_vec(), acceleration: a.to_vec(), ..State::rest(&q) };
+        let (found, _) = watch::run(py, deadline, None, |watch| {
+            let mut replanner = self.replanner.lock().ok()?;
+            let update = replanner.update(&movers, now, &state, &|| watch.keep_going());
+            Some((update, replanner.motion().clone()))
+        })?;
+        let Some((update, motion)) = found else { return Err(broken(py)) };
+        let decision = match update.decision {
+            Decision::Keep => "keep",
+            Decision::New(_) => "new",
+            Decision::Stop(_) => "stop",
+        };
+        let verdict = verdict::as_dict(py, &scene.scene, &update.verdict)?;
+        Ok((decision, Motion(motion), update.reaches_goal, verdict))
+    }
+}
+
+impl Replanner {
+    /// Waits for an update in another thread to end.
+    fn ask<T: Send>(&self, py: Python<'_>, what: impl FnOnce(&online::Replanner) -> T + Send) -> PyResult<T> {
+        py.detach(|| self.replanner.lock().ok().map(|replanner| what(&replanner))).ok_or_else(|| broken(py))
+    }
+}
+
+/// A scene in time: where its movers are, and what the arm knows of them.
+#[pyclass(module = "elbowroom._core")]
+pub(crate) struct World(online::World);
+
+#[pymethods]
+impl World {
+    /// The world of ``scene`` at time 0.
+    ///
+    /// Raises:
+    ///     BadSetting: The arm has more than two links.
+    #[new]
+    fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
+        let flat = scene.two_link_moving(py, "a world in time")?;
+        Ok(Self(online::World::new(flat.clone(), scene.movers.clone())))
+    }
+
+    /// What time it is (s).
+    #[getter]
+    fn now(&self) -> f64 {
+        self.0.now()
+    }
+
+    /// Let time go on to ``now`` (s) while the arm is at ``q`` (rad).
+    #[pyo3(signature = (now, *, q))]
+    fn advance(&mut self, py: Python<'_>, now: f64, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+        let q = Configuration(pair(py, "q", &q)?);
+        self.0.advance(now, &q);
+        Ok(())
+    }
+
+    /// Where each obstacle that moves is now, in the scene's order, as a shift from where the scene has it, shape
+    /// ``(movers, 2)`` (m).
+    #[getter]
+    fn shifts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        let pairs: Vec<[f64; 2]> = self.0.shifts().iter().map(|shift| [shift.x, shift.y]).collect();
+        Array2::from(pairs).into_pyarray(py)
+    }
+
+    /// Return what the arm, which is at ``q`` (rad), knows of each obstacle that moves: its place among the scene's
+    /// obstacles, and its course or where it is seen; ``None`` for one that it knows nothing of.
+    #[pyo3(signature = (*, q))]
+    fn known<'py>(
+        &self,
+        py: Python<'py>,
+        q: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<Vec<(usize, Option<Bound<'py, PyDict>>)>> {
+        let q = Configuration(pair(py, "q", &q)?);
+        let seen = self.0.seen_from(&q);
+        seen.iter().map(|mover| Ok((mover.obstacle(), known_parts(py, mover)?))).collect()
+    }
+}
+
+/// What is known of a mover, with the names of the dataclasses' fields.
+fn known_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Option<Bound<'py, PyDict>>> {
+    match mover.course() {
+        Course::Absent => Ok(None),
+        Course::Unknown { seen, shift } => {
+            let part = PyDict::new(py);
+            part.set_item("time", seen)?;
+            part.set_item("shift", (shift.x, shift.y))?;
+            part.set_item("greatest_speed", mover.greatest_speed())?;
+            Ok(Some(part))
+        }
+        _ => {
+            let part = motion_parts(py, mover)?;
+            // The arm knows of it now, however that came about.
+            for sight in ["seen_from", "sensing_radius"] {
+                if part.contains(sight)? {
+                    part.del_item(sight)?;
+                }
+            }
+            Ok(Some(part))
+        }
+    }
+}
+
+/// The mover of the scene that is obstacle `index`, as it is known.
+fn mover(py: Python<'_>, scene: &Scene, index: usize, part: Option<KnownPart>) -> PyResult<Mover> {
+    let Some(declared) = scene.movers.iter().find(|mover| mover.obstacle() == index) else {
+        let list: Vec<String> = scene.movers.iter().map(|mover| mover.obstacle().to_string()).collect();
+        let message = format!(
+            "known: obstacle {index} does not move in this scene; those that do: {}",
+            if list.is_empty() { "none".to_owned() } else { list.join(", ") }
+        );
+        return Err(errors::setting(py, "known", &message));
+    };
+    part.map_or_else(|| Ok(declared.on(Course::Absent)), |part| part.build(py, index, declared))
+}
+
+/// The goal of `task`, in the posture it asks for.
+fn goal(py: Python<'_>, scene: &scene::Scene, movers: &[Mover], task: &Task) -> PyResult<Place> {
+    let wanted = match task.posture {
+        TaskPosture::Any => return Ok(task.goal.clone()),
+        TaskPosture::Up => Posture::ElbowUp,
+        TaskPosture::Down => Posture::ElbowDown,
+        TaskPosture::Keep => {
+            let message =
+                "an arm that gets out of the way cannot promise to keep its posture; up, down or any";
+            return Err(errors::setting(py, "posture", message));
+        }
+    };
+    let mut still = scene.clone();
+    let mut index = 0;
+    still.obstacles.retain(|_| {
+        index += 1;
+        movers.iter().all(|mover| mover.obstacle() + 1 != index)
+    });
+    let goals = py.detach(|| configurations(&still, &task.goal));
+    let goals = goals.map_err(|refused| errors::not_free(py, &task.name, "goal", &refused))?;
+    let fits = |q: &Configuration<2>| Posture::of(q).is_none_or(|posture| posture == wanted);
+    let found = goals.into_iter().find(fits).ok_or_else(|| {
+        let message = format!("the goal cannot be reached {}", wanted.name());
+        errors::setting(py, "posture", &message)
+    })?;
+    Ok(Place::Configuration(found.0.to_vec()))
+}
+
+fn pair(py: Python<'_>, name: &str, values: &PyReadonlyArray1<'_, f64>) -> PyResult<[f64; 2]> {
+    let found = values.as_array();
+    match found.as_slice().and_then(|values| <[f64; 2]>::try_from(values).ok()) {
+        Some(pair) if pair.iter().all(|value| value.is_finite()) => Ok(pair),
+        _ => {
+            let listed = PyList::new(py, found.iter())?;
+            let message = format!("{name} is {listed}; two finite numbers are needed, one per joint");
+            Err(errors::setting(py, name, &message))
+        }
+    }
+}
+
+fn broken(py: Python<'_>) -> PyErr {
+    errors::internal(py, "an earlier update of this replanner failed")
+}

@@ -1,0 +1,82 @@
+"""The command ``elbowroom follow``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from elbowroom.cli.failure import NOTHING_FOUND, UNSAFE, reported
+
+if TYPE_CHECKING:
+    from elbowroom.follow import Followed
+
+
+def follow_command(
+    scene: Annotated[Path, typer.Argument(help="Scene file (YAML) whose obstacles may move.")],
+    task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
+    rate: Annotated[float, typer.Option(help="Updates a second (Hz); a step has to be whole milliseconds.")] = 50.0,
+    horizon: Annotated[float, typer.Option(help="How long the arm has (s, simulated).")] = 60.0,
+    seed: Annotated[int, typer.Option(help="Of what is drawn by lot.")] = 0,
+    deadline: Annotated[
+        float | None,
+        typer.Option(help="Cut every update short after so many seconds; decisions then depend on the clock."),
+    ] = None,
+    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds (real).")] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for follow.json, decisions.jsonl, trajectory.csv and the pictures.")
+    ] = None,
+    animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Keep an arm going among obstacles that move, simulated: exit code 0 if it reached the goal without contact.
+
+    3 if it did not reach the goal in time, 4 if the verifier does not prove that what was followed was safe.
+    """
+    with reported():
+        import json
+
+        from elbowroom.cli.follow_text import in_words
+        from elbowroom.cli.progress import progress
+        from elbowroom.errors import BadSetting
+        from elbowroom.follow import follow
+        from elbowroom.follow.files import summary, write_followed
+        from elbowroom.scene import Scene
+
+        if animate and out is None:
+            raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
+        loaded = Scene.load(scene)
+        with progress() as show:
+            followed = follow(
+                loaded,
+                task=task,
+                rate=rate,
+                horizon=horizon,
+                seed=seed,
+                deadline=deadline,
+                timeout=timeout,
+                on_step=lambda now: show(f"following: {now:.1f} s"),
+            )
+            written: list[Path] = []
+            if out is not None:
+                from elbowroom.follow.animation import animate as write_animation
+                from elbowroom.follow.pictures import draw
+
+                show("drawing")
+                written = [*write_followed(followed, out), *draw(followed, out)]
+                if animate:
+                    written.append(write_animation(followed, out / "follow.gif"))
+        if as_json:
+            typer.echo(json.dumps(summary(followed), allow_nan=False))
+        else:
+            typer.echo(in_words(followed))
+            for path in written:
+                typer.echo(f"wrote {path}")
+        code = _code(followed)
+        if code:
+            raise typer.Exit(code)
+
+
+def _code(followed: Followed) -> int:
+    return {"reached": 0, "not reached": NOTHING_FOUND, "not safe": UNSAFE}[followed.outcome]

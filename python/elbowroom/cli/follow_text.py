@@ -1,0 +1,32 @@
+"""What was followed, in words."""
+
+from __future__ import annotations
+
+from elbowroom.cli.plan_text import verdict_lines
+from elbowroom.follow import Followed
+from elbowroom.follow.files import summary
+
+
+def in_words(followed: Followed) -> str:
+    """Return what a user wants to know of ``followed``."""
+    found = summary(followed)
+    if followed.reached:
+        end = f"at rest at the goal after {followed.duration:.2f} s"
+    elif followed.given_up:
+        end = f"given up after {followed.duration:.2f} s, the goal not reached"
+    else:
+        end = f"the goal not reached within {followed.horizon:g} s"
+    decisions = found["decisions"]
+    spent = {name: f"{value * 1e3:.2f} ms" for name, value in found["update_s"].items()}
+    lines = [
+        f"task '{followed.task}': {end}",
+        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, "
+        f"{decisions['stop']} stops",
+        f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
+    ]
+    if late := found["update_s"]["longer_than_a_step"]:
+        lines.append(f"{late} updates took longer than a step")
+    if doubtful := found["updates_not_safe"]:
+        lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")
+    lines.append("what was followed, among the obstacles as they really moved:")
+    return "\n".join([*lines, *verdict_lines(followed.check.verdict)])

@@ -1,0 +1,32 @@
+"""How near the arm came to each obstacle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from elbowroom.follow.courses import shifted, shifts
+from elbowroom.follow.followed import Followed
+from elbowroom.plan import Floats
+
+
+def clearances(followed: Followed) -> dict[str, Floats]:
+    """Return the arm's clearance over the samples from each obstacle that moves, by what it is called, and from those
+    that stand still together (m).
+    """
+    scene, samples = followed.true_scene, followed.samples
+    still = [obstacle for obstacle in scene.obstacles if obstacle.motion is None]
+    found: dict[str, Floats] = {}
+    for i, obstacle in enumerate(scene.obstacles):
+        if obstacle.motion is not None:
+            places = shifts(obstacle.motion, samples.t).tolist()
+            found[obstacle.name or f"obstacle {i}"] = np.array(
+                [
+                    replace(scene, obstacles=[shifted(obstacle, (x, y))], tasks={}).core.link_clearances(q).min()
+                    for (x, y), q in zip(places, samples.q[:, np.newaxis], strict=True)
+                ]
+            )
+    if still:
+        found["standing obstacles"] = replace(scene, obstacles=still).core.link_clearances(samples.q).min(axis=1)
+    return found

@@ -1,0 +1,59 @@
+"""Where obstacles are, when."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from elbowroom.plan import Floats
+from elbowroom.scene import Circle, ObstacleMotion, Pair, Polygon, Scene
+
+
+def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
+    """Return how far an obstacle on a known course is from where the scene has it at ``t`` (s), ``(n, 2)`` (m)."""
+    if motion is not None and motion.waypoints is not None:
+        times = np.array([time for time, _ in motion.waypoints])
+        places = np.array([shift for _, shift in motion.waypoints], dtype=np.float64)
+        return np.column_stack([np.interp(t, times, places[:, axis]) for axis in (0, 1)])
+    if motion is not None and motion.velocity is not None:
+        going = np.maximum(t - motion.start, 0.0)
+        return np.column_stack([going * rate for rate in motion.velocity])
+    return np.zeros((len(t), 2))
+
+
+def shifted(obstacle: Circle | Polygon, by: Pair) -> Circle | Polygon:
+    """Return ``obstacle`` standing still, shifted by so much (m)."""
+    x, y = by
+    if isinstance(obstacle, Circle):
+        return replace(obstacle, center=(obstacle.center[0] + x, obstacle.center[1] + y), motion=None)
+    return replace(obstacle, vertices=[(vx + x, vy + y) for vx, vy in obstacle.vertices], motion=None)
+
+
+def middle(obstacle: Circle | Polygon) -> Floats:
+    """Return the middle of ``obstacle`` where the scene has it (m)."""
+    if isinstance(obstacle, Circle):
+        return np.array(obstacle.center)
+    corners = np.array(obstacle.vertices)
+    centre: Floats = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
+    return centre
+
+
+def as_recorded(scene: Scene, recorded: Mapping[int, Sequence[tuple[float, Pair]]]) -> Scene:
+    """Return ``scene`` with obstacles on the ways that were ``recorded``: times (s) and shifts (m), by their place."""
+    obstacles = list(scene.obstacles)
+    for index, points in recorded.items():
+        motion = ObstacleMotion(waypoints=_without_needless(points))
+        obstacles[index] = replace(obstacles[index], motion=motion)
+    return replace(scene, obstacles=tuple(obstacles))
+
+
+def _without_needless(points: Sequence[tuple[float, Pair]]) -> list[tuple[float, Pair]]:
+    """Leave out the points at which an obstacle just goes on standing."""
+    last = len(points) - 1
+    return [
+        point
+        for i, point in enumerate(points)
+        if i in (0, last) or not points[i - 1][1] == point[1] == points[i + 1][1]
+    ]
