@@ -9,7 +9,7 @@ use crate::path::{JointPath, simplify};
 use crate::planners::motion_limits;
 use crate::scene::{Course, Mover, Place, Scene};
 use crate::trajectory::{
-    Motion, Piece, SpeedLimits, State, brake, departing, fastest_durations, quintic_through, vias_at,
+    Motion, Piece, SpeedLimits, State, TICK, brake, departing, fastest_durations, quintic_through, vias_at,
 };
 use crate::verify::{Verdict, VerifySettings, Violation, verify_among};
 
@@ -157,8 +157,8 @@ impl Replanner {
             return self.keep(verdict_of_rest);
         }
         let arrival = if is_safe && self.reaches_goal { self.motion.end() } else { f64::INFINITY };
-        if let Some((motion, verdict)) = search.to_goal(&mut self.routes, arrival) {
-            return self.run(motion, true, verdict);
+        if let Some(found) = search.to_goal(&mut self.routes, arrival) {
+            return self.run(found.motion, found.reaches_goal, found.verdict);
         }
         if is_safe {
             let may_look = !self.reaches_goal && self.updates.is_multiple_of(LOOK_EVERY);
@@ -189,7 +189,7 @@ impl Replanner {
         let planned = self.motion.at(now);
         let off = joint_distance(&planned.position, &state.position)
             .max(joint_distance(&planned.velocity, &state.velocity));
-        let left = || self.motion.after(now).unwrap_or_else(|| standing(&planned.position, now, HOLD));
+        let left = || self.motion.after(now).unwrap_or_else(|| standing(&planned.position, now, TICK));
         (off <= ASTRAY).then(left)
     }
 
@@ -209,6 +209,14 @@ impl Replanner {
         self.reaches_goal = reaches_goal;
         Update { decision: Decision::New(motion), reaches_goal, verdict }
     }
+}
+
+/// A safe motion towards a goal.
+struct Found {
+    motion: Motion,
+    verdict: Verdict,
+    /// Whether it is all of the way.
+    reaches_goal: bool,
 }
 
 /// One update's view of the world.
@@ -266,14 +274,14 @@ impl Search<'_> {
 
     fn stop(&self) -> Option<Motion> {
         if self.is_at_rest() {
-            return Some(standing(&self.state.position, self.now, crate::trajectory::TICK));
+            return Some(standing(&self.state.position, self.now, TICK));
         }
         Motion::new(vec![brake(self.now, self.state, self.limits)?]).ok()
     }
 
     /// The safe motion to a goal that arrives first, at least a little before `arrival` (s): at once past the obstacles
     /// as they are, or past those that stand still, after a wait where it must be; or the first part of one.
-    fn to_goal(&self, routes: &mut Routes, arrival: f64) -> Option<(Motion, Verdict)> {
+    fn to_goal(&self, routes: &mut Routes, arrival: f64) -> Option<Found> {
         let here = Configuration(<[f64; 2]>::try_from(self.state.position.as_slice()).ok()?);
         let mut best: Option<(Motion, Verdict)> = None;
         let mut refused: Vec<Motion> = Vec::new();
@@ -312,9 +320,10 @@ impl Search<'_> {
             }
         }
         if best.is_none() && arrival.is_infinite() {
-            return refused.iter().find_map(|motion| self.part_of(motion));
+            let part = refused.iter().find_map(|motion| self.part_of(motion));
+            return part.map(|(motion, verdict)| Found { motion, verdict, reaches_goal: false });
         }
-        best
+        best.map(|(motion, verdict)| Found { motion, verdict, reaches_goal: true })
     }
 
     /// `stop`, a wait, and then `path` from rest to rest.
