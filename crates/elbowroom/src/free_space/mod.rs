@@ -19,5 +19,5 @@ pub use map::{FreeSpaceMap, Reasons};
 pub use place::{NotFree, Reason, configurations};
 pub use slices::Slices;
 pub(crate) use slices::merged;
-pub use space::{Cases, FreeSpace};
+pub use space::{Cases, ChangedCells, FreeSpace};
 pub use state::{CONTACT_FLOOR, CellState, state_of};

@@ -85,6 +85,8 @@ pub enum NodeState {
 pub enum Until {
     /// The cost-to-go of this node is final, and so is that of every node with no more.
     Settled(usize),
+    /// The cost-to-go of every node that has no more than this is final.
+    Within(f64),
     /// The cost-to-go of every node is final.
     WholeField,
 }
@@ -171,6 +173,26 @@ impl Dstar {
         }
     }
 
+    /// Tells that the step between `a` and `b` costs `cost` now, in either direction: what [`changed`](Self::changed) does,
+    /// for one edge, but nothing is put on the list that it makes no difference to.
+    ///
+    /// A cost that is told too low does no harm where neither's [`next`](Self::next) is the other. A step that is no part
+    /// of the ways known, and would not shorten them, need not be told at all. Numbers that are no node are passed over.
+    pub fn step_changed(&mut self, a: usize, b: usize, cost: f64) {
+        if a >= self.len() || b >= self.len() {
+            return;
+        }
+        self.end_wave();
+        for (node, other) in [(a, b), (b, a)] {
+            let through = self.nodes.cost(other) + cost;
+            if self.nodes.leads_to(node, other) && through != self.nodes.cost(node) {
+                self.insert(node, through);
+            } else if through < self.nodes.cost(node) {
+                self.reopen(other);
+            }
+        }
+    }
+
     /// The cost of the best way known from `node` to a goal; infinite if none is known, or there is no such node.
     pub fn cost_to_go(&self, node: usize) -> f64 {
         if node < self.len() { self.nodes.cost(node) } else { f64::INFINITY }
@@ -223,12 +245,14 @@ impl Dstar {
             return match (self.first_bucket(ring), until) {
                 (None, _) => true,
                 (Some(first), Until::Settled(node)) => first > ring.bucket_of(self.cost_to_go(node)),
+                (Some(first), Until::Within(cost)) => first > ring.bucket_of(cost),
                 (Some(_), Until::WholeField) => false,
             };
         }
         match (self.open.least_key(), until) {
             (None, _) => true,
             (Some(least), Until::Settled(node)) => least >= self.cost_to_go(node),
+            (Some(least), Until::Within(cost)) => least > cost,
             (Some(_), Until::WholeField) => false,
         }
     }
