@@ -81,7 +81,7 @@ pub enum NodeState {
 }
 
 /// How far [`Dstar::expand`] goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {
     /// The cost-to-go of this node is final, and so is that of every node with no more.
     Settled(usize),
@@ -185,7 +185,7 @@ impl Dstar {
         self.end_wave();
         for (node, other) in [(a, b), (b, a)] {
             let through = self.nodes.cost(other) + cost;
-            if self.nodes.leads_to(node, other) && through != self.nodes.cost(node) {
+            if self.next(node) == Some(other) && through != self.nodes.cost(node) {
                 self.insert(node, through);
             } else if through < self.nodes.cost(node) {
                 self.reopen(other);
@@ -252,7 +252,7 @@ impl Dstar {
         match (self.open.least_key(), until) {
             (None, _) => true,
             (Some(least), Until::Settled(node)) => least >= self.cost_to_go(node),
-            (Some(least), Until::Within(cost)) => least > cost,
+            (Some(least), Until::Within(cost)) => least >= cost,
             (Some(_), Until::WholeField) => false,
         }
     }
