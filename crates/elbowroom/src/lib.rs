@@ -10,6 +10,7 @@ pub mod arm;
 pub mod free_space;
 pub mod geometry;
 pub mod grid;
+pub mod online;
 pub mod path;
 pub mod planners;
 pub mod scene;

@@ -329,6 +329,10 @@ fn equals_dijkstra_when_told_step_by_step() {
             if random.chance(0.5) {
                 dstar.expand(&world, Until::WholeField, random.below(40));
             }
+            if random.chance(0.1) {
+                dstar.begin_again();
+                assert_eq!(dstar.expansions(), 0);
+            }
             let before = edges(&world);
             random.change(&mut world, start, &goals);
             let mut changes: Vec<_> = before.iter().zip(edges(&world)).filter(|(old, new)| old.2 != new.2).collect();

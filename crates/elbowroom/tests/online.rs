@@ -9,4 +9,6 @@ mod judge;
 mod moves;
 #[path = "online/refill.rs"]
 mod refill;
+#[path = "online/roadmap.rs"]
+mod roadmap;
 mod worlds;

@@ -7,6 +7,7 @@ mod boundary;
 mod fill;
 mod map;
 mod mark;
+mod near;
 mod place;
 mod rule;
 mod slices;
@@ -16,6 +17,7 @@ mod state;
 mod target;
 
 pub use map::{FreeSpaceMap, Reasons};
+pub(crate) use near::{ShortWays, cells_near_moved};
 pub use place::{NotFree, Reason, configurations};
 pub use slices::Slices;
 pub(crate) use slices::merged;

@@ -78,17 +78,19 @@ impl Rule {
                 rules.push(Self { mark: mark_of(state), test: Test::Joint { joint, arc } });
             }
         }
-        rules.extend(Self::contacts(arm, scene.obstacles.iter().enumerate()));
+        rules.extend(Self::contacts(arm, 0.0, scene.obstacles.iter().enumerate()));
         rules
     }
 
-    /// The rules that some obstacles make, each given with its number in the scene.
+    /// The rules that some obstacles make, each given with its number in the scene, where the arm stays `margin` (m)
+    /// farther away than contact.
     pub(super) fn contacts<'o>(
         arm: &TwoLinkArm,
+        margin: f64,
         obstacles: impl Iterator<Item = (usize, &'o Obstacle)>,
     ) -> Vec<Self> {
         let targets: Vec<(usize, Target)> =
-            obstacles.map(|(index, obstacle)| (index, Target::new(arm, obstacle))).collect();
+            obstacles.map(|(index, obstacle)| (index, Target::new(arm, obstacle, margin))).collect();
         let mut rules = Vec::new();
         for (link, reach) in [arm.lengths()[0], arm.reach()[1]].into_iter().enumerate() {
             for (index, target) in targets.iter().filter(|(_, target)| target.is_within(reach)) {

@@ -57,7 +57,7 @@ impl FreeSpace {
         Posture::ALL.map(|posture| {
             let marks = self.maps[posture.index()].marks_mut();
             marks.make_room(scene.obstacles.len());
-            let mut watch = Watch::new(Rule::contacts(&scene.arm, moved.iter().copied()));
+            let mut watch = Watch::new(Rule::contacts(&scene.arm, 0.0, moved.iter().copied()));
             let watched = (Some(&mut watch), &(|| true) as &dyn Fn() -> bool);
             match marks {
                 Marks::Bytes(marks) => filler.fill_watched(posture, 0, marks, watched),

@@ -2,6 +2,7 @@
 
 mod bound;
 mod candidates;
+mod changing_graph;
 mod chart;
 mod choose;
 mod limits;
@@ -17,6 +18,10 @@ mod settings;
 mod sheets;
 mod smooth;
 mod union_graph;
+
+pub(crate) use changing_graph::{ChangingGraph, Goal};
+pub(crate) use problem::Problem;
+pub(crate) use sheets::Kept;
 
 pub use candidates::NEARLY_EQUAL;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};

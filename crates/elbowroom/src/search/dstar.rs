@@ -142,6 +142,19 @@ impl Dstar {
         Ok(())
     }
 
+    /// Forgets all ways, but not the goals: as after [`new`](Self::new), where more would have to be repaired than to be
+    /// found again.
+    pub fn begin_again(&mut self) {
+        self.nodes.clear();
+        self.open.clear();
+        self.ring = None;
+        self.expansions = 0;
+        for (&node, &cost) in &self.goals {
+            self.nodes.set_cost(node, cost);
+            self.open.insert(node, cost);
+        }
+    }
+
     /// Expands nodes until `until` holds or `budget` nodes are expanded.
     ///
     /// `graph` must be the one D* was told of so far, with as many nodes.
