@@ -14,11 +14,6 @@ use crate::scene::{Obstacle, Scene};
 /// Points of a small block.
 const POINTS: usize = SIDE * SIDE;
 
-/// How far any point of the arm goes at most on a short way of the tip, in ways of the elbow while the tip goes straight:
-/// both joints may turn evenly instead. Both ends of the first link and the direction of the second stay within what they
-/// are at the ends of the way, the tip so within the elbow's way twice and its own.
-const DETOUR: f64 = 3.0;
-
 /// Widest turn for which that holds (rad): a joint that turns farther may be sent the other way round.
 const WIDEST_TURN: f64 = 1.0;
 
@@ -36,12 +31,15 @@ pub(crate) struct ShortWays {
 
 /// The cells of the map of `posture` from which one of the `ways` may come to touch an obstacle that is not where it was
 /// `before`, as it was or as it is now in `scene`. Edges that lead from other cells are what they were.
+///
+/// `None` if there are more than `most`.
 pub(crate) fn cells_near_moved(
     scene: &Scene,
     before: &[Obstacle],
     posture: Posture,
     ways: ShortWays,
-) -> Vec<usize> {
+    most: usize,
+) -> Option<Vec<usize>> {
     let rules = Rule::contacts(&scene.arm, MARGIN, moved(before, &scene.obstacles).into_iter());
     let lengths = Lengths::of(&scene.arm);
     let open = (0..rules.len()).collect();
@@ -53,10 +51,11 @@ pub(crate) fn cells_near_moved(
         points: Stances::new(lengths, posture),
         open,
         found: Vec::new(),
+        most,
     };
     let all = Block { columns: 0..scene.grid.columns(), rows: 0..scene.grid.rows() };
     near.search(&all, 0..near.rules.len());
-    near.found
+    (near.found.len() <= most).then_some(near.found)
 }
 
 struct Near<'s> {
@@ -68,6 +67,8 @@ struct Near<'s> {
     /// The rules that matter in the block at hand and in those it is part of, one list after the other.
     open: Vec<usize>,
     found: Vec<usize>,
+    /// How many may be found before it is given up.
+    most: usize,
 }
 
 impl Near<'_> {
@@ -75,7 +76,7 @@ impl Near<'_> {
         let (middle, radius) = block.circle_around(&self.scene.grid, self.scene.arm.base());
         self.middle.stand(&[middle.x], &[middle.y]);
         let distance = self.middle.squared[0].sqrt();
-        if open.is_empty() || self.is_out_of_reach(distance, radius) {
+        if open.is_empty() || self.found.len() > self.most || self.is_out_of_reach(distance, radius) {
             return;
         }
         let slack = self.slack(distance, radius + self.ways.length, radius + self.ways.band);
@@ -116,7 +117,10 @@ impl Near<'_> {
         Slack::around(lengths, distance, band.max(radius))?;
         let slack = Slack::around(lengths, distance, radius)?;
         let is_narrow = slack.joints.iter().all(|turn| *turn <= WIDEST_TURN);
-        is_narrow.then_some(Slack { links: DETOUR * slack.links, ..slack })
+        // While the tip goes straight the elbow goes no farther than `slack.links`. Where both joints turn evenly instead,
+        // the first link and the direction of the second stay between what they are at the ends of the way: the second
+        // link's ends go no farther than the elbow, and than it, the way that its direction turned the tip, and the elbow.
+        is_narrow.then_some(Slack { links: 2.0 * slack.links + radius, ..slack })
     }
 
     /// The part that the ways have in the `slack` of a block within `radius`.

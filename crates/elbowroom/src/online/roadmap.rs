@@ -10,8 +10,9 @@ use crate::search::{Dstar, Graph, Progress, Until};
 /// Expansions of D* between two looks at how far the search has to go.
 const EXPANSIONS_PER_LOOK: usize = 64;
 
-/// Share of the nodes reached so far that may have changed beyond which a new field costs less than repairing the old one.
-const WORTH_REPAIRING: f64 = 0.5;
+/// Beyond this number of nodes near something that moved, as a share of those ever looked at, a new field costs less than
+/// the old one repaired: measured on grids of 101 x 101 points.
+const WORTH_REPAIRING: f64 = 0.6;
 
 /// The ways to one task's goals over places and postures, kept up to date while obstacles move: the map of each posture,
 /// what is known of the free configurations and the certified turns between them, and D*'s cost-to-go.
@@ -50,10 +51,8 @@ pub enum Upkeep {
 pub struct Updated {
     /// Cells that are in another state now, of both postures together.
     pub cells: usize,
-    /// Nodes of the graph near which something moved.
-    pub nodes: usize,
-    /// Whether the cost-to-go was begun anew instead of repaired.
-    pub is_new: bool,
+    /// Nodes of the graph near which something moved, where the cost-to-go was repaired; `None` where it was begun anew.
+    pub repaired: Option<usize>,
 }
 
 /// A way to the goal.
@@ -133,24 +132,22 @@ impl Roadmap {
     pub fn move_obstacles(&mut self, obstacles: Vec<Obstacle>) -> Updated {
         let before = std::mem::replace(&mut self.scene.obstacles, obstacles);
         let changed = self.space.refill(&before, &self.scene);
-        let nodes = self.with_graph(|graph, _| graph.forget_near(&before));
+        let most = match self.upkeep {
+            Upkeep::Cheaper => (WORTH_REPAIRING * self.kept.count() as f64) as usize,
+            Upkeep::Repair => usize::MAX,
+            Upkeep::Anew => 0,
+        };
+        let nodes = self.with_graph(|graph, _| graph.forget_near(&before, most));
         let was_open = self.is_goal_open;
         self.look_at_goals();
         // Without a goal there is nothing to repair: every way would be raised, one by one.
-        let reached = self.field.expansions().min(self.field.len());
-        let is_new = match self.upkeep {
-            Upkeep::Cheaper => {
-                was_open != self.is_goal_open || nodes.len() as f64 > WORTH_REPAIRING * reached as f64
-            }
-            Upkeep::Repair => false,
-            Upkeep::Anew => true,
-        };
-        if is_new {
-            self.field.begin_again();
-        } else {
-            self.with_graph(|graph, field| graph.tell(field, &nodes));
+        let may_repair = self.upkeep == Upkeep::Repair || was_open == self.is_goal_open;
+        let repaired = nodes.filter(|_| may_repair);
+        match &repaired {
+            Some(nodes) => self.with_graph(|graph, field| graph.tell(field, nodes)),
+            None => self.field.begin_again(),
         }
-        Updated { cells: changed.iter().map(Vec::len).sum(), nodes: nodes.len(), is_new }
+        Updated { cells: changed.iter().map(Vec::len).sum(), repaired: repaired.map(|nodes| nodes.len()) }
     }
 
     /// The best way to a goal from `q`, which need not be over a grid point.

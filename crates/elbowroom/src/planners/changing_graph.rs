@@ -83,20 +83,29 @@ impl<'a> ChangingGraph<'a> {
         goals.iter_mut().for_each(|goal| goal.look_again(&self.graph));
     }
 
-    /// Forgets what may be otherwise since the obstacles were where they were `before`; the nodes it was forgotten of.
-    pub(crate) fn forget_near(&self, before: &[Obstacle]) -> Vec<usize> {
+    /// Forgets what may be otherwise since the obstacles were where they were `before`; the nodes it was forgotten of, or
+    /// `None` if it was forgotten of all, for there are more than `most`.
+    pub(crate) fn forget_near(&self, before: &[Obstacle], most: usize) -> Option<Vec<usize>> {
+        let forgotten = self.near_moved(before, most);
+        match &forgotten {
+            Some(nodes) => nodes.iter().for_each(|&node| self.graph.sheets.forget(node)),
+            None => self.graph.sheets.forget_all(),
+        }
+        forgotten
+    }
+
+    fn near_moved(&self, before: &[Obstacle], most: usize) -> Option<Vec<usize>> {
         let PostureGraph { scene, sheets, .. } = &self.graph;
         let step = scene.grid.step();
         // Diagonals, and a hair for rounding.
         let ways = ShortWays { length: 1.4143 * step, band: 1.01 * FLIP_BAND * step };
-        let mut forgotten = Vec::new();
+        let mut near = Vec::new();
         for posture in Posture::ALL {
-            for cell in cells_near_moved(scene, before, posture, ways) {
-                forgotten.extend(sheets.over(cell).filter(|&node| sheets.posture(node) == posture));
+            for cell in cells_near_moved(scene, before, posture, ways, most.saturating_sub(near.len()))? {
+                near.extend(sheets.over(cell).filter(|&node| sheets.posture(node) == posture));
             }
         }
-        forgotten.iter().for_each(|&node| sheets.forget(node));
-        forgotten
+        Some(near)
     }
 
     /// Tells `field` of all edges of `nodes` that may make a difference to it, and of those of the goals.

@@ -83,6 +83,10 @@ impl Record {
         (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
     }
 
+    fn forget(&mut self) {
+        *self = Self { is_due: true, known: 0, certified: 0, ..*self };
+    }
+
     fn keep(&mut self, edge: Edge, certified: bool) {
         self.known |= 1 << edge.0;
         self.certified |= u32::from(certified) << edge.0;
@@ -115,9 +119,13 @@ impl<'a> Sheets<'a> {
     pub(crate) fn forget(&self, node: usize) {
         let place = self.kept.places.borrow()[node] as usize;
         if let Some(place) = place.checked_sub(1) {
-            let record = &mut self.kept.records.borrow_mut()[place];
-            *record = Record { is_due: true, known: 0, certified: 0, ..*record };
+            self.kept.records.borrow_mut()[place].forget();
         }
+    }
+
+    /// [`forget`](Self::forget), for all nodes.
+    pub(crate) fn forget_all(&self) {
+        self.kept.records.borrow_mut().iter_mut().for_each(Record::forget);
     }
 
     /// How many nodes there are: every sheet has one over every cell, free or not.
@@ -240,6 +248,11 @@ impl<'a> Sheets<'a> {
 }
 
 impl Kept {
+    /// Of how many nodes something is known.
+    pub(crate) fn count(&self) -> usize {
+        self.records.borrow().len()
+    }
+
     /// With room for `len` nodes, if there is none yet.
     fn of_len(self, len: usize) -> Self {
         if self.places.borrow().len() == len {

@@ -51,7 +51,7 @@ struct Tally {
     start: u32,
     not_found: u32,
     plans: u32,
-    same_map: u32,
+    untouched: u32,
 }
 
 /// One world, many updates: everything after each equals what a roadmap of the new scene alone would have.
@@ -71,8 +71,8 @@ fn follow(seed: u64, tally: &mut Tally) {
             let obstacles = moves::update(&mut numbers, kept.scene());
             let updated = kept.move_obstacles(obstacles);
             tally.updates += 1;
-            tally.repaired += u32::from(!updated.is_new && updated.nodes > 0);
-            tally.same_map += u32::from(updated.nodes == 0);
+            tally.repaired += u32::from(updated.repaired.is_some_and(|nodes| nodes > 0));
+            tally.untouched += u32::from(updated.repaired == Some(0));
         }
         let scene = kept.scene().clone();
         assert!(*kept.space() == FreeSpace::of(&scene));
