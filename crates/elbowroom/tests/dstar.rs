@@ -335,7 +335,8 @@ fn equals_dijkstra_when_told_step_by_step() {
             }
             let before = edges(&world);
             random.change(&mut world, start, &goals);
-            let mut changes: Vec<_> = before.iter().zip(edges(&world)).filter(|(old, new)| old.2 != new.2).collect();
+            let mut changes: Vec<_> =
+                before.iter().zip(edges(&world)).filter(|(old, new)| old.2 != new.2).collect();
             if random.chance(0.5) {
                 changes.reverse();
             }
@@ -349,7 +350,11 @@ fn equals_dijkstra_when_told_step_by_step() {
                 told += 1;
                 let (a, b) = if random.chance(0.5) { (a, b) } else { (b, a) };
                 // What is told too low off the ways known is found out when it is looked at.
-                dstar.step_changed(a, b, if !on_way && random.chance(0.3) { 0.5 * cost.min(1.0) } else { cost });
+                dstar.step_changed(
+                    a,
+                    b,
+                    if !on_way && random.chance(0.3) { 0.5 * cost.min(1.0) } else { cost },
+                );
             }
             let judge = dijkstra(&world, &goals).unwrap();
             if random.chance(0.5) {

@@ -2,7 +2,7 @@
 //!
 //! `measure map SCENE POINTS RUNS OUT`, `measure field MASK POINTS GOAL RUNS OUT`, `measure repair SCENE POINTS RUNS`,
 //! `measure plan SCENE TASK POINTS PLANNER OBJECTIVE RUNS`, `measure swarm RUNS`, `measure timing SCENE VIAS RUNS`,
-//! `measure online SCENE POINTS MOVING UPKEEP UPDATES COMPARE`.
+//! `measure online SCENE POINTS MOVING UPKEEP UPDATES COMPARE RUNS`.
 //! Times are of the wall (ms), set-up and answers' files left out; `RAYON_NUM_THREADS` says how many cores.
 
 mod field;
@@ -32,8 +32,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["plan", scene, task, points, planner, objective, runs] => {
             plan::measure([scene, task, planner, objective], points.parse()?, runs.parse()?)?
         }
-        ["online", scene, points, moving, upkeep, updates, compare] => {
-            online::measure([scene, moving, upkeep], points.parse()?, [updates.parse()?, compare.parse()?])?
+        ["online", scene, points, moving, upkeep, updates, compare, runs] => {
+            let counts = [updates.parse()?, compare.parse()?, runs.parse()?];
+            online::measure([scene, moving, upkeep], points.parse()?, counts)?
         }
         ["swarm", runs] => swarm::measure(runs.parse()?)?,
         ["timing", scene, vias, runs] => timing::measure(scene, vias, runs.parse()?)?,

@@ -244,7 +244,9 @@ impl<M: Kept> Band<'_, M> {
         let at = self.place(row, columns);
         if let Some(watch) = &mut self.watch {
             let marks = self.marks[at.clone()].iter();
-            watch.changed.extend(at.clone().zip(marks).filter(|(_, old)| **old != mark).map(|(cell, _)| cell));
+            watch
+                .changed
+                .extend(at.clone().zip(marks).filter(|(_, old)| **old != mark).map(|(cell, _)| cell));
         }
         self.marks[at].fill(mark);
     }

@@ -62,11 +62,7 @@ impl Marks {
     ///
     /// Zeros come from the system as such, unwritten: taking them costs no time, whatever their number.
     pub(super) fn free(len: usize, obstacles: usize) -> Self {
-        if fit_bytes(obstacles) {
-            Self::Bytes(vec![0; len])
-        } else {
-            Self::Words(vec![0; len])
-        }
+        if fit_bytes(obstacles) { Self::Bytes(vec![0; len]) } else { Self::Words(vec![0; len]) }
     }
 
     /// Makes room for the numbers of more obstacles, if need be.

@@ -98,7 +98,9 @@ pub(super) fn moved<'o>(before: &'o [Obstacle], now: &'o [Obstacle]) -> Vec<(usi
         shape(before) != shape(now)
     };
     let indices = (0..before.len().max(now.len())).filter(differ);
-    indices.flat_map(|index| [before, now].into_iter().filter_map(move |list| Some((index, list.get(index)?)))).collect()
+    indices
+        .flat_map(|index| [before, now].into_iter().filter_map(move |list| Some((index, list.get(index)?))))
+        .collect()
 }
 
 /// Whether the links are in line with the tip at `cell`, so that both postures are the same configuration.

@@ -12,7 +12,7 @@ const EXPANSIONS_PER_LOOK: usize = 64;
 
 /// Beyond this number of nodes near something that moved, as a share of those ever looked at, a new field costs less than
 /// the old one repaired: measured on grids of 101 x 101 points.
-const WORTH_REPAIRING: f64 = 0.6;
+const WORTH_REPAIRING: f64 = 0.8;
 
 /// The ways to one task's goals over places and postures, kept up to date while obstacles move: the map of each posture,
 /// what is known of the free configurations and the certified turns between them, and D*'s cost-to-go.

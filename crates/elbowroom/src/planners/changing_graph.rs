@@ -228,7 +228,8 @@ impl<'a> ChangingGraph<'a> {
         visit: &mut impl FnMut(usize, f64),
     ) {
         for other in self.graph.sheets.over(cell).filter(|&other| self.is_across(node, other)) {
-            let cost = look.and_then(|(place, from)| self.graph.across(node, (*place, from), other, direction));
+            let cost =
+                look.and_then(|(place, from)| self.graph.across(node, (*place, from), other, direction));
             visit(other, cost.unwrap_or(f64::INFINITY));
         }
     }
@@ -282,5 +283,9 @@ impl Graph for ChangingGraph<'_> {
             let joined = goal.joined.iter().filter(|join| join.node == node);
             joined.for_each(|join| visit(goal_node, join.cost_now()));
         }
+    }
+
+    fn usual_step(&self) -> Option<f64> {
+        Some(self.graph.scene.grid.step())
     }
 }

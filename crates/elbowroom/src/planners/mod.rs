@@ -7,6 +7,7 @@ mod chart;
 mod choose;
 mod limits;
 mod monitor;
+mod nearest;
 mod optimal;
 mod paper;
 mod plan;

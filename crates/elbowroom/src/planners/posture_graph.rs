@@ -128,8 +128,13 @@ impl<'a> PostureGraph<'a> {
     }
 
     pub(super) fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+        self.may_turn(from, to) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
+    }
+
+    /// Whether the posture is kept, or may be changed.
+    fn may_turn(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
         let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
-        (self.may_flip || !changes) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
+        self.may_flip || !changes
     }
 
     /// Whether the arm can turn from `from` to `to`: straight or, where that would swing wide, by way of
@@ -143,21 +148,30 @@ impl<'a> PostureGraph<'a> {
     ) -> bool {
         let arm = &self.scene.arm;
         let Some(to) = direct(arm, from, to) else { return false };
-        if sweep_is_free(self.scene, from, &to) {
-            return true;
-        }
-        let posture = match (Posture::of(from), Posture::of(&to)) {
+        sweep_is_free(self.scene, from, &to) || self.connect_bent(from, &to, halvings, between)
+    }
+
+    /// [`connect`](Self::connect), where the straight turn to `to` is not free.
+    fn connect_bent(
+        &self,
+        from: &Configuration<2>,
+        to: &Configuration<2>,
+        halvings: u32,
+        between: &mut Vec<Configuration<2>>,
+    ) -> bool {
+        let arm = &self.scene.arm;
+        let posture = match (Posture::of(from), Posture::of(to)) {
             (Some(a), Some(b)) if a != b => return false,
             (Some(posture), _) | (None, Some(posture)) => posture,
             (None, None) => return false,
         };
-        if halvings == 0 || from.distance(&to) < WIDE_TURN {
+        if halvings == 0 || from.distance(to) < WIDE_TURN {
             return false;
         }
-        let (a, b) = (arm.tip(from), arm.tip(&to));
+        let (a, b) = (arm.tip(from), arm.tip(to));
         let middle = a + (b - a) * 0.5;
         let on_line = arm.inverse(middle, posture).unwrap_or_default();
-        let halfway = from.lerp(&to, 0.5);
+        let halfway = from.lerp(to, 0.5);
         let nearest = on_line
             .iter()
             .filter_map(|q| direct(arm, from, q))
@@ -167,7 +181,7 @@ impl<'a> PostureGraph<'a> {
             return false;
         }
         between.push(middle);
-        self.connect(&middle, &to, halvings - 1, between)
+        self.connect(&middle, to, halvings - 1, between)
     }
 
     /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
@@ -196,19 +210,30 @@ impl<'a> PostureGraph<'a> {
             let Some((there, to)) = self.sheets.look(other) else { return false };
             // One order for both ways, so that rounding cannot make it matter who asks first.
             let (a, b) = if node < other { (from, &to) } else { (&to, from) };
-            let certified = self.is_clear_at_a_glance(a, b) || self.is_certified(&a.q, &b.q);
+            let certified = self.is_edge(a, b);
             self.sheets.keep_edge(place, edge, there, certified);
             certified
         })
     }
 
-    /// Whether the clearances at both ends are enough to certify the straight turn between two nodes.
-    fn is_clear_at_a_glance(&self, from: &Record, to: &Record) -> bool {
+    /// Whether the arm can turn between two nodes: what [`is_certified`](Self::is_certified) says, with what is known of
+    /// the clearances at both ends.
+    fn is_edge(&self, from: &Record, to: &Record) -> bool {
         let arm = &self.scene.arm;
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
         let bounds = motion_bounds(arm, &from.q, &end);
-        let clearance = from.clearance_with(to);
-        (0..2).all(|link| clearance[link] > bounds[link])
+        if from.nearest.are_enough_with(&to.nearest, bounds) {
+            return true;
+        }
+        let Some(mut suspects) = from.nearest.suspects(&to.nearest, bounds) else {
+            return self.is_certified(&from.q, &to.q);
+        };
+        if !self.may_turn(&from.q, &to.q) {
+            return false;
+        }
+        let is_free = |scene: &Scene| sweep_is_free(scene, &from.q, &end);
+        suspects.all(|index| self.sheets.obstacles.alone(index).is_none_or(is_free))
+            || self.connect_bent(&from.q, &end, MOST_HALVINGS, &mut Vec::new())
     }
 
     /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`.
@@ -244,7 +269,7 @@ impl<'a> PostureGraph<'a> {
             return None;
         }
         let (a, b) = if node < other { (from, &to) } else { (&to, from) };
-        let look = || self.is_clear_at_a_glance(a, b) || self.is_certified(&a.q, &b.q);
+        let look = || self.is_edge(a, b);
         let certified = if self.sheets.several_per_posture() {
             look()
         } else {

@@ -1,10 +1,10 @@
 use std::cell::RefCell;
 
+use super::nearest::{Nearest, Obstacles};
 use crate::arm::{Configuration, JointLimits, Posture, TwoLinkArm};
 use crate::free_space::FreeSpace;
 use crate::geometry::{Point, angle_difference};
 use crate::grid::Grid;
-use crate::path::certified_clearance;
 use crate::scene::Scene;
 
 /// Rounding in the count of turns: a range of exactly one turn has one sheet, not two.
@@ -25,6 +25,7 @@ pub(crate) struct Sheets<'a> {
     cells: usize,
     /// From a cell that is not at the grid's edge to its neighbours.
     steps_around: Option<[isize; 8]>,
+    pub(super) obstacles: Obstacles<'a>,
     kept: Kept,
 }
 
@@ -40,8 +41,7 @@ pub(crate) struct Kept {
 #[derive(Clone, Copy)]
 pub(crate) struct Record {
     pub(crate) q: Configuration<2>,
-    /// Of each link, beyond what is to be kept (m), rounded down.
-    clearance: [f32; 2],
+    pub(super) nearest: Nearest,
     /// Whether the tip is near full stretch or fold.
     pub(crate) is_near_edge: bool,
     /// Whether obstacles moved near by: all but `q` has to be worked out again, if the node is free at all.
@@ -73,11 +73,6 @@ impl Edge {
 }
 
 impl Record {
-    /// Clearance of both links here and at `other`, added up (m).
-    pub(crate) fn clearance_with(&self, other: &Self) -> [f64; 2] {
-        std::array::from_fn(|link| f64::from(self.clearance[link]) + f64::from(other.clearance[link]))
-    }
-
     /// Whether `edge` is certified; `None` if nobody looked yet.
     pub(crate) fn is_certified(&self, edge: Edge) -> Option<bool> {
         (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
@@ -106,6 +101,7 @@ impl<'a> Sheets<'a> {
             per_posture,
             cells,
             steps_around: steps_around(&scene.grid),
+            obstacles: Obstacles::of(scene),
             kept: kept.of_len(2 * per_posture * cells),
         }
     }
@@ -241,9 +237,9 @@ impl<'a> Sheets<'a> {
     }
 
     fn work_out(&self, node: usize, q: Configuration<2>) -> Record {
-        let clearance = certified_clearance(self.scene, &q).map(|clearance| (clearance as f32).next_down());
+        let nearest = self.obstacles.nearest_to(&q);
         let is_near_edge = self.is_near_edge(node);
-        Record { q, clearance, is_near_edge, is_due: false, known: 0, certified: 0 }
+        Record { q, nearest, is_near_edge, is_due: false, known: 0, certified: 0 }
     }
 }
 

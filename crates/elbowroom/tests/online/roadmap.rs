@@ -28,7 +28,8 @@ fn bits(field: &[f64]) -> Vec<u64> {
 fn assert_free(scene: &Scene, q: &Configuration<2>, Route { path, cost }: &Route) {
     assert_eq!(path.0.first(), Some(q));
     for pair in path.0.windows(2) {
-        let (there, back) = (sweep_is_free(scene, &pair[0], &pair[1]), sweep_is_free(scene, &pair[1], &pair[0]));
+        let (there, back) =
+            (sweep_is_free(scene, &pair[0], &pair[1]), sweep_is_free(scene, &pair[1], &pair[0]));
         assert!(there || back, "{pair:?} is not free in {scene:#?}");
     }
     // Halved turns bring the tip back to the straight line: the grid's cost is no more than a little below the truth.
@@ -83,7 +84,8 @@ fn follow(seed: u64, tally: &mut Tally) {
         // Not always settled before the next update comes.
         if numbers.below(4) > 0 {
             let (route, judged) = (kept.path_from(&q), fresh.path_from(&q));
-            let cost = |route: &Result<Route, NoRoute>| route.as_ref().map(|r| r.cost.to_bits()).map_err(|e| *e);
+            let cost =
+                |route: &Result<Route, NoRoute>| route.as_ref().map(|r| r.cost.to_bits()).map_err(|e| *e);
             assert_eq!(cost(&route), cost(&judged), "seed {seed}, update {update}, {scene:#?}");
             match &route {
                 Ok(route) => {
@@ -118,7 +120,8 @@ fn compare_with_plan(
     tally: &mut Tally,
 ) {
     let task = Task { start: Place::Configuration(*q), ..task.clone() };
-    let settings = PlanSettings { planner: Planner::Dstar, objective: Objective::Tip, ..PlanSettings::default() };
+    let settings =
+        PlanSettings { planner: Planner::Dstar, objective: Objective::Tip, ..PlanSettings::default() };
     match plan(scene, &task, &settings, &Unwatched) {
         Ok(found) => {
             let cost = route.as_ref().unwrap().cost;
@@ -141,5 +144,8 @@ fn what_is_kept_equals_what_is_found_from_scratch() {
     }
     println!("{tally:?}");
     assert!(tally.updates > 2_500 && tally.repaired > 500 && tally.routes > 1_000, "{tally:?}");
-    assert!(tally.goal_blocked > 20 && tally.not_found > 20 && tally.start > 20 && tally.plans > 50, "{tally:?}");
+    assert!(
+        tally.goal_blocked > 20 && tally.not_found > 20 && tally.start > 20 && tally.plans > 50,
+        "{tally:?}"
+    );
 }
