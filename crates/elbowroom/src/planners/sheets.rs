@@ -79,7 +79,7 @@ impl Record {
     }
 
     fn forget(&mut self) {
-        *self = Self { is_due: true, known: 0, certified: 0, ..*self };
+        self.is_due = true;
     }
 
     fn keep(&mut self, edge: Edge, certified: bool) {

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use elbowroom::arm::{Configuration, JointLimits};
 use elbowroom::free_space::FreeSpace;
+use elbowroom::grid::Grid;
 use elbowroom::online::{NoRoute, Roadmap, Route, Upkeep};
 use elbowroom::path::sweep_is_free;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
@@ -57,7 +58,11 @@ struct Tally {
 
 /// One world, many updates: everything after each equals what a roadmap of the new scene alone would have.
 fn follow(seed: u64, tally: &mut Tally) {
-    let Some(scene) = worlds::world(seed) else { return };
+    let Some(mut scene) = worlds::world(seed) else { return };
+    if seed % 40 == 0 {
+        let reach: f64 = scene.arm.lengths().iter().sum();
+        scene.grid = Grid::new([-reach, reach], [-reach, reach], reach / 60.0).unwrap();
+    }
     let task = scene.tasks[0].clone();
     let mut numbers = worlds::Numbers::seeded(seed ^ 0x5a);
     let Ok(kept) = Roadmap::new(scene, &task) else { return };
