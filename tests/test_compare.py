@@ -145,6 +145,8 @@ def test_rows_are_the_same_in_any_number_of_processes_and_after_a_stop(scenes: P
 
     fewer = asked(scenes, tmp_path / "one", seeds=range(1), planners=all_chosen("dstar"))
     assert (fewer.fresh, fewer.beside, len(fewer.rows)) == (0, 20, 4)
+    some = asked(scenes, tmp_path / "one", tasks=["second"])
+    assert (some.fresh, {row.task for row in some.rows}, len(some.rows)) == (0, {"second"}, 12)
     other = asked(scenes, tmp_path / "one", seeds=range(1), planners=all_chosen("dstar"), timeout=60)
     assert (other.fresh, other.beside) == (4, 24)
 
@@ -187,6 +189,8 @@ def test_workers_leave_the_environment_alone(scenes: Path) -> None:
         ({"seeds": [-1]}, "different whole numbers"),
         ({"planners": []}, "no planners"),
         ({"scenes": []}, "no scenes"),
+        ({"tasks": []}, "no tasks"),
+        ({"tasks": ["first", "third"]}, "no task 'third', only first, second"),
         ({"budget": 0}, "budget is 0"),
         ({"jobs": 0}, "jobs is 0"),
         ({"timeout": math.nan}, "timeout is nan"),
