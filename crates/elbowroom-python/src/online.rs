@@ -65,6 +65,7 @@ impl Replanner {
         match made {
             Ok(replanner) => Ok(Self { replanner: Mutex::new(replanner), start }),
             Err(ReplanError::Goal(refused)) => Err(errors::not_free(py, task, "goal", &refused)),
+            Err(ReplanError::Routes(refused)) => Err(errors::plan(py, task, None, &refused)),
         }
     }
 

@@ -304,6 +304,78 @@ fn equals_dijkstra_on_random_maps_after_every_change() {
     assert!(counts.iter().all(|&count| count > 1_500), "cases that occurred: {counts:?}");
 }
 
+/// Every edge, from its lesser end, with its cost.
+fn edges(world: &World) -> Vec<(usize, usize, f64)> {
+    let mut edges = Vec::new();
+    for a in 0..world.len() {
+        world.neighbours(a, |b, cost| edges.extend((a < b).then_some((a, b, cost))));
+    }
+    edges
+}
+
+#[test]
+fn equals_dijkstra_when_told_step_by_step() {
+    let mut random = Random::new(20_261_123);
+    let (mut told, mut untold, mut within) = (0, 0, 0);
+    for _ in 0..6_000 {
+        let mut world = random.world();
+        let start = random.below(world.len());
+        let goals = distinct_goals(&mut random, world.len());
+        let mut dstar = Dstar::new(world.len());
+        for &(node, cost) in &goals {
+            dstar.insert_goal(node, cost).unwrap();
+        }
+        for _ in 0..2 + random.below(6) {
+            if random.chance(0.5) {
+                dstar.expand(&world, Until::WholeField, random.below(40));
+            }
+            if random.chance(0.1) {
+                dstar.begin_again();
+                assert_eq!(dstar.expansions(), 0);
+            }
+            let before = edges(&world);
+            random.change(&mut world, start, &goals);
+            let mut changes: Vec<_> =
+                before.iter().zip(edges(&world)).filter(|(old, new)| old.2 != new.2).collect();
+            if random.chance(0.5) {
+                changes.reverse();
+            }
+            for (_, (a, b, cost)) in changes {
+                let shorter = |x: usize, y: usize| dstar.cost_to_go(x) + cost < dstar.cost_to_go(y);
+                let on_way = dstar.next(a) == Some(b) || dstar.next(b) == Some(a);
+                if !on_way && !shorter(a, b) && !shorter(b, a) {
+                    untold += 1;
+                    continue;
+                }
+                told += 1;
+                let (a, b) = if random.chance(0.5) { (a, b) } else { (b, a) };
+                // What is told too low off the ways known is found out when it is looked at.
+                dstar.step_changed(
+                    a,
+                    b,
+                    if !on_way && random.chance(0.3) { 0.5 * cost.min(1.0) } else { cost },
+                );
+            }
+            let judge = dijkstra(&world, &goals).unwrap();
+            if random.chance(0.5) {
+                let cost = 20.0 * random.unit();
+                assert_eq!(dstar.expand(&world, Until::Within(cost), ALL), Progress::Done);
+                for (node, &best) in judge.iter().enumerate() {
+                    if best <= cost || dstar.cost_to_go(node) <= cost {
+                        assert_eq!(dstar.cost_to_go(node).to_bits(), best.to_bits());
+                        within += 1;
+                    }
+                }
+            }
+            if random.chance(0.7) {
+                assert_eq!(dstar.expand(&world, Until::WholeField, ALL), Progress::Done);
+                assert_field(&world, &dstar, &goals);
+            }
+        }
+    }
+    assert!(told > 100_000 && untold > 100_000 && within > 100_000, "{told} {untold} {within}");
+}
+
 fn with_usual_step(mut world: World, step: Option<f64>) -> World {
     let (World::Cells { usual_step, .. } | World::Network { usual_step, .. }) = &mut world;
     *usual_step = step;

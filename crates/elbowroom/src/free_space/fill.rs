@@ -29,6 +29,23 @@ const POINTS: usize = SIDE * SIDE;
 /// decide on all of them.
 const UNASKED: usize = 512;
 
+/// What a [`Filler`] asks before it fills a part of a map again.
+pub(super) struct Watch {
+    /// Those rules that may have come or gone: what none of them could forbid is as it was.
+    rules: Vec<Rule>,
+    /// Which of them are open in the block at hand and in those it is part of, one list after the other.
+    open: Vec<usize>,
+    /// The cells that are in another state now, by their place in the part that is filled.
+    pub(super) changed: Vec<usize>,
+}
+
+impl Watch {
+    pub(super) fn new(rules: Vec<Rule>) -> Self {
+        let open = (0..rules.len()).collect();
+        Self { rules, open, changed: Vec::new() }
+    }
+}
+
 /// What is worked out once for all points of a map.
 pub(super) struct Filler<'a> {
     scene: &'a Scene,
@@ -55,9 +72,19 @@ impl<'a> Filler<'a> {
         marks: &mut [M],
         keep_going: &dyn Fn() -> bool,
     ) {
-        if !keep_going() {
-            return;
+        if keep_going() {
+            self.fill_watched(posture, first, marks, (None, keep_going));
         }
+    }
+
+    /// [`fill_rows`](Self::fill_rows), but only where a rule of the watch may have made a difference.
+    pub(super) fn fill_watched<M: Kept>(
+        &self,
+        posture: Posture,
+        first: usize,
+        marks: &mut [M],
+        (watch, keep_going): (Option<&mut Watch>, &dyn Fn() -> bool),
+    ) {
         let columns = self.columns();
         let block = Block { columns: 0..columns, rows: first..first + marks.len() / columns };
         let all = 0..self.rules.len();
@@ -69,6 +96,8 @@ impl<'a> Filler<'a> {
             first,
             marks,
             open: all.clone().collect(),
+            watched: 0..watch.as_ref().map_or(0, |watch| watch.rules.len()),
+            watch,
             keep_going,
         };
         band.fill(&block, all, FREE);
@@ -85,6 +114,10 @@ struct Band<'f, M> {
     marks: &'f mut [M],
     /// The rules that are open in the block at hand and in those it is part of, one list after the other.
     open: Vec<usize>,
+    /// Where only some places are to be filled.
+    watch: Option<&'f mut Watch>,
+    /// The part of the watch's list that holds for the block at hand.
+    watched: Range<usize>,
     keep_going: &'f dyn Fn() -> bool,
 }
 
@@ -92,12 +125,19 @@ impl<M: Kept> Band<'_, M> {
     /// Fills `block`, where the rules in the part `open` of the list are open and `otherwise` marks what none forbids;
     /// false if it was stopped.
     fn fill(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) -> bool {
+        let (middle, radius) = block.circle_around(&self.filler.scene.grid, self.filler.scene.arm.base());
+        self.middle.stand(&[middle.x], &[middle.y]);
+        let slack = self.slack(radius);
+        let around = self.watched.clone();
+        if self.is_as_it_was(middle, radius, slack.as_ref()) {
+            return true;
+        }
         let end = self.open.len();
-        let (open, otherwise) = self.still_open(block, open, otherwise);
+        let (open, otherwise) = self.still_open((middle, radius), slack.as_ref(), open, otherwise);
         let mut done = true;
         if open.is_empty() {
             for row in block.rows.clone() {
-                self.row(row, &block.columns).fill(M::cut(otherwise));
+                self.fill_row(row, &block.columns, M::cut(otherwise));
             }
         } else if block.is_small() {
             self.fill_points(block, open, otherwise);
@@ -106,19 +146,45 @@ impl<M: Kept> Band<'_, M> {
                 && block.halves().iter().all(|half| self.fill(half, open.clone(), otherwise));
         }
         self.open.truncate(end);
+        if let Some(watch) = &mut self.watch {
+            watch.open.truncate(self.watched.start);
+        }
+        self.watched = around;
         done
     }
 
-    /// Which of the rules stay open in all of `block`, and what marks the places that none of them forbids.
-    fn still_open(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) -> (Range<usize>, Mark) {
-        let (middle, radius) = block.circle_around(&self.filler.scene.grid, self.filler.scene.arm.base());
-        self.middle.stand(&[middle.x], &[middle.y]);
-        let slack = self.slack(radius);
+    /// Whether there is a watch and none of its rules could forbid anything within `radius` of `middle`, for which
+    /// `self.middle` stands; else those that could are watched on.
+    fn is_as_it_was(&mut self, middle: Point, radius: f64, slack: Option<&Slack>) -> bool {
+        let Some(watch) = &mut self.watch else { return false };
+        let start = watch.open.len();
+        for place in self.watched.clone() {
+            let rule = &watch.rules[watch.open[place]];
+            if rule.may_forbid((middle, radius), &self.middle, slack) {
+                watch.open.push(watch.open[place]);
+            }
+        }
+        let none = watch.open.len() == start;
+        if !none {
+            self.watched = start..watch.open.len();
+        }
+        none
+    }
+
+    /// Which of the rules stay open in all of the block within `radius` of `middle`, for which `self.middle` stands, and
+    /// what marks the places that none of them forbids.
+    fn still_open(
+        &mut self,
+        (middle, radius): (Point, f64),
+        slack: Option<&Slack>,
+        open: Range<usize>,
+        otherwise: Mark,
+    ) -> (Range<usize>, Mark) {
         let start = self.open.len();
         for place in open {
             let rule = &self.filler.rules[self.open[place]];
             let mut mark = [FREE];
-            match &slack {
+            match slack {
                 Some(slack) => rule.mark(&self.middle, slack, &mut mark),
                 None if rule.allows_around(middle, radius, &self.filler.lengths) => {}
                 None => mark = [UNDECIDED],
@@ -132,33 +198,8 @@ impl<M: Kept> Band<'_, M> {
         (start..self.open.len(), otherwise)
     }
 
-    /// How far the arm moves at most while its tip goes anywhere within `radius` of the middle, if all of that is out
-    /// of reach or all within; `None` where it may come to the ends of the reach.
-    ///
-    /// The second joint's sine bounds it: the tip moves at least that many times as far as the elbow, and the square
-    /// of the sine has no least value but at the ends of an interval of squared distances.
     fn slack(&self, radius: f64) -> Option<Slack> {
-        let lengths = &self.filler.lengths;
-        let distance = self.middle.squared[0].sqrt();
-        let (near, far) = ((distance - radius).max(0.0), distance + radius);
-        let (near_squared, far_squared) = (near * near, far * far);
-        let (past_nearest, short_of_farthest) =
-            (|squared| squared - lengths.nearest_squared, |squared| lengths.farthest_squared - squared);
-        if short_of_farthest(near_squared) < -lengths.rounding
-            || past_nearest(far_squared) < -lengths.rounding
-        {
-            return Some(Slack::default());
-        }
-        if past_nearest(near_squared) < lengths.rounding || short_of_farthest(far_squared) < lengths.rounding
-        {
-            return None;
-        }
-        let area = lengths.area(near_squared).min(lengths.area(far_squared));
-        let product = lengths.first * lengths.second;
-        let sine = area.sqrt() / (2.0 * product);
-        let elbow = radius / sine;
-        let joints = [elbow / lengths.first, far * radius / (product * sine)];
-        Some(Slack { joints, links: elbow })
+        Slack::around(&self.filler.lengths, self.middle.squared[0].sqrt(), radius)
     }
 
     /// Fills a small block, point by point.
@@ -180,21 +221,51 @@ impl<M: Kept> Band<'_, M> {
         }
         for (row, found) in block.rows.clone().zip(found.chunks(SIDE)) {
             let columns = block.columns.clone();
+            let mut before = [M::cut(FREE); SIDE];
             let marks = self.row(row, &columns);
+            before[..marks.len()].copy_from_slice(marks);
             for (mark, &found) in marks.iter_mut().zip(found) {
                 *mark = M::cut(found);
             }
-            for ((mark, &found), column) in marks.iter_mut().zip(found).zip(columns) {
+            for ((mark, &found), column) in marks.iter_mut().zip(found).zip(columns.clone()) {
                 if found == UNDECIDED {
                     let tip = Point::new(grid.x(column), grid.y(row));
                     *mark = M::cut(mark_of(state_of(scene, tip, posture)));
                 }
             }
+            if self.watch.is_some() {
+                self.tell_changes(row, &columns, &before);
+            }
         }
     }
 
+    /// Marks part of a row alike.
+    fn fill_row(&mut self, row: usize, columns: &Range<usize>, mark: M) {
+        let at = self.place(row, columns);
+        if let Some(watch) = &mut self.watch {
+            let marks = self.marks[at.clone()].iter();
+            watch
+                .changed
+                .extend(at.clone().zip(marks).filter(|(_, old)| **old != mark).map(|(cell, _)| cell));
+        }
+        self.marks[at].fill(mark);
+    }
+
+    /// Notes which marks in a part of a row are others than `before`.
+    fn tell_changes(&mut self, row: usize, columns: &Range<usize>, before: &[M]) {
+        let at = self.place(row, columns);
+        let Some(watch) = &mut self.watch else { return };
+        let pairs = at.clone().zip(self.marks[at].iter().zip(before));
+        watch.changed.extend(pairs.filter(|(_, (new, old))| new != old).map(|(cell, _)| cell));
+    }
+
     fn row(&mut self, row: usize, columns: &Range<usize>) -> &mut [M] {
+        let at = self.place(row, columns);
+        &mut self.marks[at]
+    }
+
+    fn place(&self, row: usize, columns: &Range<usize>) -> Range<usize> {
         let start = (row - self.first) * self.filler.columns();
-        &mut self.marks[start + columns.start..start + columns.end]
+        start + columns.start..start + columns.end
     }
 }

@@ -27,6 +27,10 @@ impl FreeSpaceMap {
         Self { posture, marks }
     }
 
+    pub(super) fn marks_mut(&mut self) -> &mut Marks {
+        &mut self.marks
+    }
+
     /// The posture it holds for.
     pub fn posture(&self) -> Posture {
         self.posture

@@ -34,7 +34,7 @@ pub(super) enum Marks {
 }
 
 /// What a mark is kept as.
-pub(super) trait Kept: Copy + Send {
+pub(super) trait Kept: Copy + Send + PartialEq {
     /// `mark` cut to this size.
     fn cut(mark: Mark) -> Self;
 }
@@ -51,16 +51,26 @@ impl Kept for u32 {
     }
 }
 
+/// Whether a byte is enough for every mark in a scene of so many obstacles.
+fn fit_bytes(obstacles: usize) -> bool {
+    let last = obstacles.saturating_sub(1).min(usize::from(u16::MAX)) as u16;
+    mark_of(CellState::Collision { link: 2, obstacle: last }) <= Mark::from(u8::MAX)
+}
+
 impl Marks {
     /// `len` marks, all of free places.
     ///
     /// Zeros come from the system as such, unwritten: taking them costs no time, whatever their number.
     pub(super) fn free(len: usize, obstacles: usize) -> Self {
-        let last = obstacles.saturating_sub(1).min(usize::from(u16::MAX)) as u16;
-        if mark_of(CellState::Collision { link: 2, obstacle: last }) <= Mark::from(u8::MAX) {
-            Self::Bytes(vec![0; len])
-        } else {
-            Self::Words(vec![0; len])
+        if fit_bytes(obstacles) { Self::Bytes(vec![0; len]) } else { Self::Words(vec![0; len]) }
+    }
+
+    /// Makes room for the numbers of more obstacles, if need be.
+    pub(super) fn make_room(&mut self, obstacles: usize) {
+        if let Self::Bytes(marks) = self
+            && !fit_bytes(obstacles)
+        {
+            *self = Self::Words(marks.iter().copied().map(u32::from).collect());
         }
     }
 

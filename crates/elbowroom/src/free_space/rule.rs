@@ -1,10 +1,11 @@
 use super::CellState;
 use super::arc::Arc;
-use super::mark::{Mark, mark_of};
+use super::mark::{FREE, Mark, mark_of};
 use super::stances::{Lengths, Stances};
 use super::target::Target;
+use crate::arm::TwoLinkArm;
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::{Obstacle, Scene};
 
 /// How near to a joint's stop a direction is left undecided (rad).
 const JOINT_ROUNDING: f64 = 1e-9;
@@ -37,6 +38,35 @@ pub(super) struct Slack {
 /// Marks a place where slack or rounding may decide.
 pub(super) const UNDECIDED: Mark = Mark::MAX;
 
+impl Slack {
+    /// How far the arm moves at most while its tip goes anywhere within `radius` of a place at `distance` from the base,
+    /// if all of that is out of reach or all within; `None` where it may come to the ends of the reach.
+    ///
+    /// The second joint's sine bounds it: the tip moves at least that many times as far as the elbow, and the square
+    /// of the sine has no least value but at the ends of an interval of squared distances.
+    pub(super) fn around(lengths: &Lengths, distance: f64, radius: f64) -> Option<Self> {
+        let (near, far) = ((distance - radius).max(0.0), distance + radius);
+        let (near_squared, far_squared) = (near * near, far * far);
+        let (past_nearest, short_of_farthest) =
+            (|squared| squared - lengths.nearest_squared, |squared| lengths.farthest_squared - squared);
+        if short_of_farthest(near_squared) < -lengths.rounding
+            || past_nearest(far_squared) < -lengths.rounding
+        {
+            return Some(Self::default());
+        }
+        if past_nearest(near_squared) < lengths.rounding || short_of_farthest(far_squared) < lengths.rounding
+        {
+            return None;
+        }
+        let area = lengths.area(near_squared).min(lengths.area(far_squared));
+        let product = lengths.first * lengths.second;
+        let sine = area.sqrt() / (2.0 * product);
+        let elbow = radius / sine;
+        let joints = [elbow / lengths.first, far * radius / (product * sine)];
+        Some(Self { joints, links: elbow })
+    }
+}
+
 impl Rule {
     /// All rules of `scene` that could forbid anything, those that come first in [`CellState`]'s order first.
     pub(super) fn all(scene: &Scene) -> Vec<Self> {
@@ -48,16 +78,42 @@ impl Rule {
                 rules.push(Self { mark: mark_of(state), test: Test::Joint { joint, arc } });
             }
         }
-        let targets: Vec<Target> =
-            scene.obstacles.iter().map(|obstacle| Target::new(arm, obstacle)).collect();
+        rules.extend(Self::contacts(arm, 0.0, scene.obstacles.iter().enumerate()));
+        rules
+    }
+
+    /// The rules that some obstacles make, each given with its number in the scene, where the arm stays `margin` (m)
+    /// farther away than contact.
+    pub(super) fn contacts<'o>(
+        arm: &TwoLinkArm,
+        margin: f64,
+        obstacles: impl Iterator<Item = (usize, &'o Obstacle)>,
+    ) -> Vec<Self> {
+        let targets: Vec<(usize, Target)> =
+            obstacles.map(|(index, obstacle)| (index, Target::new(arm, obstacle, margin))).collect();
+        let mut rules = Vec::new();
         for (link, reach) in [arm.lengths()[0], arm.reach()[1]].into_iter().enumerate() {
-            for (index, target) in targets.iter().enumerate().filter(|(_, target)| target.is_within(reach)) {
-                let state = CellState::Collision { link: link as u8 + 1, obstacle: index as u16 };
+            for (index, target) in targets.iter().filter(|(_, target)| target.is_within(reach)) {
+                let state = CellState::Collision { link: link as u8 + 1, obstacle: *index as u16 };
                 let test = Test::Contact { link, obstacle: target.clone() };
                 rules.push(Self { mark: mark_of(state), test });
             }
         }
         rules
+    }
+
+    /// Whether this may forbid something within `radius` of `middle`, where `at` stands, with the slack that the arm has
+    /// then; `None` where it may come to the ends of the reach.
+    pub(super) fn may_forbid(
+        &self,
+        (middle, radius): (Point, f64),
+        at: &Stances<1>,
+        slack: Option<&Slack>,
+    ) -> bool {
+        let Some(slack) = slack else { return !self.allows_around(middle, radius, &at.lengths) };
+        let mut mark = [FREE];
+        self.mark(at, slack, &mut mark);
+        mark[0] != FREE
     }
 
     /// Marks the stances that this rule does not surely allow; what earlier calls marked is overwritten, so that of

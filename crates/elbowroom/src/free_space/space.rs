@@ -1,10 +1,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::FreeSpaceMap;
-use super::fill::Filler;
+use super::fill::{Filler, Watch};
 use super::mark::{Kept, Marks};
+use super::rule::Rule;
 use crate::arm::Posture;
-use crate::scene::Scene;
+use crate::scene::{Obstacle, Scene};
 
 /// Rows that are filled as one piece of work.
 const BAND: usize = 32;
@@ -14,6 +15,9 @@ const BAND: usize = 32;
 pub struct FreeSpace {
     maps: [FreeSpaceMap; 2],
 }
+
+/// What a refill changed: the cells that are in another state now, of each posture, elbow-up first.
+pub type ChangedCells = [Vec<usize>; 2];
 
 /// The three cases of the paper's section 4: how many configurations put the tip on a grid point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -39,6 +43,30 @@ impl FreeSpace {
         done.then_some(Self { maps })
     }
 
+    /// Makes these maps, those of `scene` with the obstacles as they were `before`, the maps of `scene`: the very same
+    /// as [`of`](Self::of) gives, but worked out only where an obstacle that came, went or moved could be touched.
+    ///
+    /// Obstacles are told apart by their number. One that is taken out gives its number to the next: better to leave one
+    /// that may come back in the list, far away.
+    pub fn refill(&mut self, before: &[Obstacle], scene: &Scene) -> ChangedCells {
+        let moved = moved(before, &scene.obstacles);
+        if moved.is_empty() {
+            return ChangedCells::default();
+        }
+        let filler = Filler::new(scene);
+        Posture::ALL.map(|posture| {
+            let marks = self.maps[posture.index()].marks_mut();
+            marks.make_room(scene.obstacles.len());
+            let mut watch = Watch::new(Rule::contacts(&scene.arm, 0.0, moved.iter().copied()));
+            let watched = (Some(&mut watch), &(|| true) as &dyn Fn() -> bool);
+            match marks {
+                Marks::Bytes(marks) => filler.fill_watched(posture, 0, marks, watched),
+                Marks::Words(marks) => filler.fill_watched(posture, 0, marks, watched),
+            }
+            watch.changed
+        })
+    }
+
     /// The map of one posture.
     pub fn map(&self, posture: Posture) -> &FreeSpaceMap {
         &self.maps[posture.index()]
@@ -61,6 +89,18 @@ impl FreeSpace {
         }
         cases
     }
+}
+
+/// The obstacles that are not where they were, old and new, each with its number.
+pub(super) fn moved<'o>(before: &'o [Obstacle], now: &'o [Obstacle]) -> Vec<(usize, &'o Obstacle)> {
+    let differ = |&index: &usize| {
+        let shape = |list: &'o [Obstacle]| list.get(index).map(|obstacle| &obstacle.shape);
+        shape(before) != shape(now)
+    };
+    let indices = (0..before.len().max(now.len())).filter(differ);
+    indices
+        .flat_map(|index| [before, now].into_iter().filter_map(move |list| Some((index, list.get(index)?))))
+        .collect()
 }
 
 /// Whether the links are in line with the tip at `cell`, so that both postures are the same configuration.

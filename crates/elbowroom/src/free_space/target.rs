@@ -31,9 +31,10 @@ pub(super) struct Target {
 }
 
 impl Target {
-    pub(super) fn new(arm: &TwoLinkArm, obstacle: &Obstacle) -> Self {
+    /// `obstacle` to an arm that is to stay `margin` (m) farther away than contact.
+    pub(super) fn new(arm: &TwoLinkArm, obstacle: &Obstacle, margin: f64) -> Self {
         let base = arm.base();
-        let floor = arm.half_width() + CONTACT_FLOOR;
+        let floor = arm.half_width() + CONTACT_FLOOR + margin;
         let (center, radius, contact, polygon) = match &obstacle.shape {
             Shape::Circle(circle) => (circle.center, 0.0, circle.radius + floor, None),
             Shape::Polygon(polygon) => {

@@ -6,7 +6,7 @@ use super::routes::Routes;
 use crate::arm::{Configuration, JointLimits, joint_distance};
 use crate::free_space::{NotFree, configurations};
 use crate::path::{JointPath, simplify};
-use crate::planners::motion_limits;
+use crate::planners::{PlanError, motion_limits};
 use crate::scene::{Course, Mover, Place, Scene};
 use crate::trajectory::{
     Motion, Piece, SpeedLimits, State, TICK, brake, departing, fastest_durations, quintic_through, vias_at,
@@ -78,6 +78,9 @@ pub enum ReplanError {
     /// The arm cannot stand at the goal whatever moves.
     #[error("goal: {0}")]
     Goal(NotFree),
+    /// It cannot stand where it is, or numbers are beyond what a search serves.
+    #[error(transparent)]
+    Routes(#[from] PlanError),
 }
 
 /// Keeps an arm of two links going to a goal, safely, among obstacles that move.
@@ -101,7 +104,8 @@ impl Replanner {
     /// as no mover says otherwise.
     ///
     /// # Errors
-    /// [`ReplanError`] where the arm cannot stand at the goal even without the obstacles that are in `movers`.
+    /// [`ReplanError`] where the arm cannot stand at the goal even without the obstacles that are in `movers`, or at
+    /// `start` without any.
     pub fn new(
         scene: Scene,
         movers: &[Mover],
@@ -119,7 +123,7 @@ impl Replanner {
         let (limits, _) = motion_limits(&scene.arm);
         let reaches_goal = goals.iter().any(|goal| goal.distance(&start) < ASTRAY);
         Ok(Self {
-            routes: Routes::new(scene.clone(), goals),
+            routes: Routes::new(&scene, &start, goal)?,
             limits,
             motion: standing(&start.0, 0.0, HOLD),
             reaches_goal,

@@ -6,7 +6,6 @@ use super::posture_graph::PostureGraph;
 use super::problem::Problem;
 use super::settings::{Objective, PlanSettings, Planner};
 use super::{Effort, Monitor, PlanError, Stage};
-use crate::arm::Configuration;
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::path::JointPath;
@@ -183,28 +182,4 @@ pub(crate) fn off_grid(
 
 fn candidate(scene: &Scene, path: JointPath) -> Candidate {
     Candidate { tip_travel: path.tip_travel(&scene.arm), path, tolerance: TAUT_TOLERANCE }
-}
-
-/// D*'s path over places and postures from one configuration to the nearest of `goals`, certified; `None` where the grid
-/// has none, or `keep_going` said no.
-pub(crate) fn certified_path(
-    scene: &Scene,
-    from: &Configuration<2>,
-    goals: &[Configuration<2>],
-    keep_going: &(dyn Fn() -> bool + Sync),
-) -> Option<JointPath> {
-    let space = FreeSpace::of_until(scene, keep_going)?;
-    let mut graph = PostureGraph::new(scene, &space, true);
-    let goals: Vec<usize> = goals.iter().map(|q| graph.insert(*q)).collect();
-    let start = graph.insert(*from);
-    let mut field = Dstar::new(graph.len());
-    for &goal in &goals {
-        field.insert_goal(goal, 0.0).ok()?;
-    }
-    while field.expand(&graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
-        if !keep_going() {
-            return None;
-        }
-    }
-    graph.joint_path(&field.path(start)?)
 }

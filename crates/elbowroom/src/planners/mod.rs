@@ -4,6 +4,7 @@ mod bound;
 mod by_name;
 mod candidates;
 mod chain;
+mod changing_graph;
 mod chart;
 mod choose;
 mod contacts;
@@ -14,6 +15,7 @@ mod ik_pso;
 mod interface;
 mod limits;
 mod monitor;
+mod nearest;
 mod optimal;
 mod paper;
 mod plan;
@@ -28,8 +30,11 @@ mod swarms;
 mod union_graph;
 
 pub use by_name::{NameError, OptionValue};
+pub(crate) use changing_graph::{ChangingGraph, Goal};
+pub(crate) use problem::Problem;
+pub(crate) use sheets::Kept;
+
 pub use candidates::NEARLY_EQUAL;
-pub(crate) use candidates::certified_path;
 pub use chain::{InverseSwarmError, InverseSwarmSettings, Previous, SwarmInverse, inverse_by_swarm};
 pub use ik_pso::IkPsoSettings;
 pub use interface::plan;

@@ -1,4 +1,4 @@
-use super::sheets::{Edge, Record, Sheets, direct, to_edge};
+use super::sheets::{Edge, Kept, Record, Sheets, direct, to_edge};
 use crate::arm::{Configuration, Posture};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
@@ -8,10 +8,10 @@ use crate::search::Graph;
 
 /// How near to full stretch or fold a posture may be changed, in grid steps of tip travel: wide enough
 /// that every direction has a grid point there.
-const FLIP_BAND: f64 = 2.0;
+pub(super) const FLIP_BAND: f64 = 2.0;
 
 /// Least cost of an edge, in grid steps: the search needs costs that do not vanish in a sum.
-const LEAST_COST: f64 = 1e-9;
+pub(super) const LEAST_COST: f64 = 1e-9;
 
 /// A turn of at least this much (rad) that is not free is tried again in halves: near full stretch and fold a
 /// small step of the tip swings the elbow wide.
@@ -27,9 +27,9 @@ const MOST_HALVINGS: u32 = 3;
 /// sheets: the straight turn passes through the line of links there, which is where a posture can change.
 /// Edges are certified when first asked for, and the answer is kept.
 pub(crate) struct PostureGraph<'a> {
-    scene: &'a Scene,
-    sheets: Sheets<'a>,
-    may_flip: bool,
+    pub(super) scene: &'a Scene,
+    pub(super) sheets: Sheets<'a>,
+    pub(super) may_flip: bool,
     places: Vec<PlaceNode>,
 }
 
@@ -43,7 +43,12 @@ struct PlaceNode {
 impl<'a> PostureGraph<'a> {
     /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
     pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool) -> Self {
-        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid.step());
+        Self::with(scene, space, may_flip, Kept::default())
+    }
+
+    /// [`new`](Self::new), with what is known already.
+    pub(super) fn with(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool, kept: Kept) -> Self {
+        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid.step(), kept);
         Self { scene, sheets, may_flip, places: Vec::new() }
     }
 
@@ -95,9 +100,14 @@ impl<'a> PostureGraph<'a> {
     /// The configurations along `nodes`, joined by certified straight turns, the turns of continuous joints
     /// counted; `None` when two nodes are no neighbours.
     pub(crate) fn joint_path(&self, nodes: &[usize]) -> Option<JointPath> {
-        let mut places: Vec<Configuration<2>> = Vec::with_capacity(nodes.len());
-        for &node in nodes {
-            let to = self.configuration(node)?;
+        let places = nodes.iter().map(|&node| self.configuration(node)).collect::<Option<Vec<_>>>()?;
+        self.turns_through(&places)
+    }
+
+    /// The same for configurations that have certified turns from each to the next.
+    pub(super) fn turns_through(&self, configurations: &[Configuration<2>]) -> Option<JointPath> {
+        let mut places: Vec<Configuration<2>> = Vec::with_capacity(configurations.len());
+        for &to in configurations {
             if let Some(from) = places.last().copied() {
                 let mut between = Vec::new();
                 // Rounding may refuse in this direction what was certified in the other; the verifier decides.
@@ -117,9 +127,14 @@ impl<'a> PostureGraph<'a> {
         Some(JointPath(places))
     }
 
-    fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+    pub(super) fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+        self.may_turn(from, to) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
+    }
+
+    /// Whether the posture is kept, or may be changed.
+    fn may_turn(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
         let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
-        (self.may_flip || !changes) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
+        self.may_flip || !changes
     }
 
     /// Whether the arm can turn from `from` to `to`: straight or, where that would swing wide, by way of
@@ -133,21 +148,30 @@ impl<'a> PostureGraph<'a> {
     ) -> bool {
         let arm = &self.scene.arm;
         let Some(to) = direct(arm, from, to) else { return false };
-        if sweep_is_free(self.scene, from, &to) {
-            return true;
-        }
-        let posture = match (Posture::of(from), Posture::of(&to)) {
+        sweep_is_free(self.scene, from, &to) || self.connect_bent(from, &to, halvings, between)
+    }
+
+    /// [`connect`](Self::connect), where the straight turn to `to` is not free.
+    fn connect_bent(
+        &self,
+        from: &Configuration<2>,
+        to: &Configuration<2>,
+        halvings: u32,
+        between: &mut Vec<Configuration<2>>,
+    ) -> bool {
+        let arm = &self.scene.arm;
+        let posture = match (Posture::of(from), Posture::of(to)) {
             (Some(a), Some(b)) if a != b => return false,
             (Some(posture), _) | (None, Some(posture)) => posture,
             (None, None) => return false,
         };
-        if halvings == 0 || from.distance(&to) < WIDE_TURN {
+        if halvings == 0 || from.distance(to) < WIDE_TURN {
             return false;
         }
-        let (a, b) = (arm.tip(from), arm.tip(&to));
+        let (a, b) = (arm.tip(from), arm.tip(to));
         let middle = a + (b - a) * 0.5;
         let on_line = arm.inverse(middle, posture).unwrap_or_default();
-        let halfway = from.lerp(&to, 0.5);
+        let halfway = from.lerp(to, 0.5);
         let nearest = on_line
             .iter()
             .filter_map(|q| direct(arm, from, q))
@@ -157,12 +181,12 @@ impl<'a> PostureGraph<'a> {
             return false;
         }
         between.push(middle);
-        self.connect(&middle, &to, halvings - 1, between)
+        self.connect(&middle, to, halvings - 1, between)
     }
 
     /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
     /// fold between them. More than 0, as the search asks.
-    fn cost(&self, a: Point, b: Point, qa: &Configuration<2>, qb: &Configuration<2>) -> f64 {
+    pub(super) fn cost(&self, a: Point, b: Point, qa: &Configuration<2>, qb: &Configuration<2>) -> f64 {
         let straight = a.distance(b);
         let travel = match (Posture::of(qa), Posture::of(qb)) {
             (Some(pa), Some(pb)) if pa != pb => {
@@ -173,65 +197,94 @@ impl<'a> PostureGraph<'a> {
         travel.max(LEAST_COST * self.scene.grid.step())
     }
 
-    /// Whether the edge from `from`, kept at `place`, to its neighbour `other` on the sheet is certified.
-    fn sheet_edge(&self, (place, from): (usize, &Record), other: usize, direction: usize) -> bool {
+    /// Whether the edge from `node`, kept at `place`, to its neighbour `other` on the sheet is certified.
+    pub(super) fn sheet_edge(
+        &self,
+        node: usize,
+        (place, from): (usize, &Record),
+        other: usize,
+        direction: usize,
+    ) -> bool {
         let edge = Edge::along(direction);
         from.is_certified(edge).unwrap_or_else(|| {
             let Some((there, to)) = self.sheets.look(other) else { return false };
-            let certified = self.is_clear_at_a_glance(from, &to) || self.is_certified(&from.q, &to.q);
+            // One order for both ways, so that rounding cannot make it matter who asks first.
+            let (a, b) = if node < other { (from, &to) } else { (&to, from) };
+            let certified = self.is_edge(a, b);
             self.sheets.keep_edge(place, edge, there, certified);
             certified
         })
     }
 
-    /// Whether the clearances at both ends are enough to certify the straight turn between two nodes.
-    fn is_clear_at_a_glance(&self, from: &Record, to: &Record) -> bool {
+    /// Whether the arm can turn between two nodes: what [`is_certified`](Self::is_certified) says, with what is known of
+    /// the clearances at both ends.
+    fn is_edge(&self, from: &Record, to: &Record) -> bool {
         let arm = &self.scene.arm;
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
         let bounds = motion_bounds(arm, &from.q, &end);
-        let clearance = from.clearance_with(to);
-        (0..2).all(|link| clearance[link] > bounds[link])
+        if from.nearest.are_enough_with(&to.nearest, bounds) {
+            return true;
+        }
+        let Some(mut suspects) = from.nearest.suspects(&to.nearest, bounds) else {
+            return self.is_certified(&from.q, &to.q);
+        };
+        if !self.may_turn(&from.q, &to.q) {
+            return false;
+        }
+        let is_free = |scene: &Scene| sweep_is_free(scene, &from.q, &end);
+        suspects.all(|index| self.sheets.obstacles.alone(index).is_none_or(is_free))
+            || self.connect_bent(&from.q, &end, MOST_HALVINGS, &mut Vec::new())
     }
 
-    /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`: to another turn of the
-    /// same posture anywhere, to the other posture near full stretch and fold.
+    /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`.
     fn visit_across(
         &self,
         node: usize,
-        (place, from): (usize, &Record),
+        from: (usize, &Record),
         (cell, direction): (usize, Option<usize>),
         visit: &mut impl FnMut(usize, f64),
     ) {
         for other in self.sheets.over(cell) {
-            if self.sheets.same_sheet(node, other) {
-                continue;
-            }
-            let Some((there, to)) = self.sheets.look(other) else { continue };
-            let may_flip = self.may_flip_at(from) && self.may_flip_at(&to);
-            if !(may_flip || self.sheets.same_posture(node, other)) {
-                continue;
-            }
-            // One order for both ways, so that rounding cannot make an edge one-way.
-            let (a, b) = if node < other { (from, &to) } else { (&to, from) };
-            let look = || self.is_clear_at_a_glance(a, b) || self.is_certified(&a.q, &b.q);
-            let certified = if self.sheets.several_per_posture() {
-                look()
-            } else {
-                let edge = Edge::across(direction);
-                from.is_certified(edge).unwrap_or_else(|| {
-                    let certified = look();
-                    self.sheets.keep_edge(place, edge, there, certified);
-                    certified
-                })
-            };
-            if certified {
-                visit(other, self.cost(self.tip(node), self.scene.grid.point(cell), &from.q, &to.q));
+            if let Some(cost) = self.across(node, from, other, direction) {
+                visit(other, cost);
             }
         }
     }
 
+    /// The cost of the edge from `node` to `other` on another sheet, if there is one and it is certified: to another turn
+    /// of the same posture anywhere, to the other posture near full stretch and fold.
+    pub(super) fn across(
+        &self,
+        node: usize,
+        (place, from): (usize, &Record),
+        other: usize,
+        direction: Option<usize>,
+    ) -> Option<f64> {
+        if self.sheets.same_sheet(node, other) {
+            return None;
+        }
+        let (there, to) = self.sheets.look(other)?;
+        let may_flip = self.may_flip_at(from) && self.may_flip_at(&to);
+        if !(may_flip || self.sheets.same_posture(node, other)) {
+            return None;
+        }
+        let (a, b) = if node < other { (from, &to) } else { (&to, from) };
+        let look = || self.is_edge(a, b);
+        let certified = if self.sheets.several_per_posture() {
+            look()
+        } else {
+            let edge = Edge::across(direction);
+            from.is_certified(edge).unwrap_or_else(|| {
+                let certified = look();
+                self.sheets.keep_edge(place, edge, there, certified);
+                certified
+            })
+        };
+        certified.then(|| self.cost(self.tip(node), self.tip(other), &from.q, &to.q))
+    }
+
     /// Whether the posture may be changed at a node.
-    fn may_flip_at(&self, record: &Record) -> bool {
+    pub(super) fn may_flip_at(&self, record: &Record) -> bool {
         self.may_flip && record.is_near_edge
     }
 }
@@ -256,7 +309,7 @@ impl Graph for PostureGraph<'_> {
         }
         for (direction, neighbour) in self.sheets.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
-            if self.sheet_edge((place, &from), sheet + neighbour, direction) {
+            if self.sheet_edge(node, (place, &from), sheet + neighbour, direction) {
                 visit(sheet + neighbour, self.scene.grid.neighbour_distance(direction));
             }
             if crosses {

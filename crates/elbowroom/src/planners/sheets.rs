@@ -1,10 +1,10 @@
 use std::cell::RefCell;
 
+use super::nearest::{Nearest, Obstacles};
 use crate::arm::{Configuration, JointLimits, Posture, TwoLinkArm};
 use crate::free_space::FreeSpace;
 use crate::geometry::{Point, angle_difference};
 use crate::grid::Grid;
-use crate::path::certified_clearance;
 use crate::scene::Scene;
 
 /// Rounding in the count of turns: a range of exactly one turn has one sheet, not two.
@@ -25,6 +25,13 @@ pub(crate) struct Sheets<'a> {
     cells: usize,
     /// From a cell that is not at the grid's edge to its neighbours.
     steps_around: Option<[isize; 8]>,
+    pub(super) obstacles: Obstacles<'a>,
+    kept: Kept,
+}
+
+/// What was found out about nodes; it may outlive the graph where obstacles move.
+#[derive(Default)]
+pub(crate) struct Kept {
     /// Where in `records` each node's is, plus 1; 0 for a node never asked for.
     places: RefCell<Vec<u32>>,
     records: RefCell<Vec<Record>>,
@@ -34,10 +41,11 @@ pub(crate) struct Sheets<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Record {
     pub(crate) q: Configuration<2>,
-    /// Of each link, beyond what is to be kept (m), rounded down.
-    clearance: [f32; 2],
+    pub(super) nearest: Nearest,
     /// Whether the tip is near full stretch or fold.
     pub(crate) is_near_edge: bool,
+    /// Whether obstacles moved near by: all but `q` has to be worked out again, if the node is free at all.
+    is_due: bool,
     /// The edges from here, a bit each: looked at, and certified.
     known: u32,
     certified: u32,
@@ -65,14 +73,13 @@ impl Edge {
 }
 
 impl Record {
-    /// Clearance of both links here and at `other`, added up (m).
-    pub(crate) fn clearance_with(&self, other: &Self) -> [f64; 2] {
-        std::array::from_fn(|link| f64::from(self.clearance[link]) + f64::from(other.clearance[link]))
-    }
-
     /// Whether `edge` is certified; `None` if nobody looked yet.
     pub(crate) fn is_certified(&self, edge: Edge) -> Option<bool> {
         (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
+    }
+
+    fn forget(&mut self) {
+        self.is_due = true;
     }
 
     fn keep(&mut self, edge: Edge, certified: bool) {
@@ -82,7 +89,9 @@ impl Record {
 }
 
 impl<'a> Sheets<'a> {
-    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, edge_band: f64) -> Self {
+    /// The sheets over the map of `scene`, with what is known of them already: of the same arm and grid, and told by
+    /// [`forget`](Self::forget) where obstacles moved.
+    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, edge_band: f64, kept: Kept) -> Self {
         let per_posture: usize = scene.arm.joints().iter().map(|joint| turns(&joint.limits)).product();
         let cells = scene.grid.len();
         Self {
@@ -92,9 +101,27 @@ impl<'a> Sheets<'a> {
             per_posture,
             cells,
             steps_around: steps_around(&scene.grid),
-            places: RefCell::new(vec![0; 2 * per_posture * cells]),
-            records: RefCell::new(Vec::new()),
+            obstacles: Obstacles::of(scene),
+            kept: kept.of_len(2 * per_posture * cells),
         }
+    }
+
+    /// What is known by now.
+    pub(crate) fn into_kept(self) -> Kept {
+        self.kept
+    }
+
+    /// Forgets what obstacles that moved near `node` may have changed.
+    pub(crate) fn forget(&self, node: usize) {
+        let place = self.kept.places.borrow()[node] as usize;
+        if let Some(place) = place.checked_sub(1) {
+            self.kept.records.borrow_mut()[place].forget();
+        }
+    }
+
+    /// [`forget`](Self::forget), for all nodes.
+    pub(crate) fn forget_all(&self) {
+        self.kept.records.borrow_mut().iter_mut().for_each(Record::forget);
     }
 
     /// How many nodes there are: every sheet has one over every cell, free or not.
@@ -135,6 +162,11 @@ impl<'a> Sheets<'a> {
         (a < nodes) == (b < nodes)
     }
 
+    /// The posture of `node`.
+    pub(crate) fn posture(&self, node: usize) -> Posture {
+        Posture::ALL[usize::from(node >= self.cells * self.per_posture)]
+    }
+
     /// The cells around `cell`, by their direction; `None` past the edge of the grid.
     pub(crate) fn around(&self, cell: usize) -> [Option<usize>; 8] {
         let grid = &self.scene.grid;
@@ -153,45 +185,76 @@ impl<'a> Sheets<'a> {
 
     /// Keeps whether the edge from the record at `from` to the one at `to` is certified.
     pub(crate) fn keep_edge(&self, from: usize, edge: Edge, to: usize, certified: bool) {
-        let mut records = self.records.borrow_mut();
+        let mut records = self.kept.records.borrow_mut();
         records[from].keep(edge, certified);
         records[to].keep(edge.reverse(), certified);
     }
 
     /// What is known of `node`, and where that is kept; `None` if the node is not free.
     pub(crate) fn look(&self, node: usize) -> Option<(usize, Record)> {
-        let place = self.places.borrow()[node] as usize;
-        if let Some(place) = place.checked_sub(1) {
-            return Some((place, self.records.borrow()[place]));
+        let place = self.kept.places.borrow()[node] as usize;
+        let Some(place) = place.checked_sub(1) else {
+            if !self.is_free(node) {
+                return None;
+            }
+            let record = self.work_out(node, self.stand(node)?);
+            let mut records = self.kept.records.borrow_mut();
+            records.push(record);
+            self.kept.places.borrow_mut()[node] = records.len() as u32;
+            return Some((records.len() - 1, record));
+        };
+        let record = self.kept.records.borrow()[place];
+        if !record.is_due {
+            return Some((place, record));
         }
-        let record = self.work_out(node)?;
-        let mut records = self.records.borrow_mut();
-        records.push(record);
-        self.places.borrow_mut()[node] = records.len() as u32;
-        Some((records.len() - 1, record))
-    }
-
-    fn work_out(&self, node: usize) -> Option<Record> {
-        let (sheet, cell) = self.sheet_and_cell(node);
-        let posture = Posture::ALL[sheet / self.per_posture];
-        if !self.space.map(posture).is_free(cell) {
+        if !self.is_free(node) {
             return None;
         }
-        let arm = &self.scene.arm;
-        let tip = self.scene.grid.point(cell);
-        let q = arm.inverse_unlimited(tip, posture).ok()?;
-        let [first, second] = arm.joints().map(|joint| joint.limits);
+        let record = self.work_out(node, record.q);
+        self.kept.records.borrow_mut()[place] = record;
+        Some((place, record))
+    }
+
+    /// Whether the tip may stand under `node` in its posture.
+    pub(crate) fn is_free(&self, node: usize) -> bool {
+        self.space.map(self.posture(node)).is_free(self.sheet_and_cell(node).1)
+    }
+
+    /// Whether the tip is near full stretch or fold at `node`.
+    pub(crate) fn is_near_edge(&self, node: usize) -> bool {
+        let tip = self.scene.grid.point(self.sheet_and_cell(node).1);
+        to_edge(&self.scene.arm, tip) <= self.edge_band
+    }
+
+    /// The configuration at `node`, whatever the obstacles, if the arm can stand there.
+    pub(crate) fn stand(&self, node: usize) -> Option<Configuration<2>> {
+        let (sheet, cell) = self.sheet_and_cell(node);
+        let q = self.scene.arm.inverse_unlimited(self.scene.grid.point(cell), self.posture(node)).ok()?;
+        let [first, second] = self.scene.arm.joints().map(|joint| joint.limits);
         let mut turned =
             first.places(q.0[0]).flat_map(|q1| second.places(q.0[1]).map(move |q2| Configuration([q1, q2])));
-        let q = turned.nth(sheet % self.per_posture)?;
-        let clearance = certified_clearance(self.scene, &q).map(|clearance| (clearance as f32).next_down());
-        Some(Record {
-            q,
-            clearance,
-            is_near_edge: to_edge(arm, tip) <= self.edge_band,
-            known: 0,
-            certified: 0,
-        })
+        turned.nth(sheet % self.per_posture)
+    }
+
+    fn work_out(&self, node: usize, q: Configuration<2>) -> Record {
+        let nearest = self.obstacles.nearest_to(&q);
+        let is_near_edge = self.is_near_edge(node);
+        Record { q, nearest, is_near_edge, is_due: false, known: 0, certified: 0 }
+    }
+}
+
+impl Kept {
+    /// Of how many nodes something is known.
+    pub(crate) fn count(&self) -> usize {
+        self.records.borrow().len()
+    }
+
+    /// With room for `len` nodes, if there is none yet.
+    fn of_len(self, len: usize) -> Self {
+        if self.places.borrow().len() == len {
+            return self;
+        }
+        Self { places: RefCell::new(vec![0; len]), records: RefCell::new(Vec::new()) }
     }
 }
 

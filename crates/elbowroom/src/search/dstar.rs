@@ -81,10 +81,12 @@ pub enum NodeState {
 }
 
 /// How far [`Dstar::expand`] goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Until {
     /// The cost-to-go of this node is final, and so is that of every node with no more.
     Settled(usize),
+    /// The cost-to-go of every node that has no more than this is final.
+    Within(f64),
     /// The cost-to-go of every node is final.
     WholeField,
 }
@@ -140,6 +142,19 @@ impl Dstar {
         Ok(())
     }
 
+    /// Forgets all ways, but not the goals: as after [`new`](Self::new), where more would have to be repaired than to be
+    /// found again.
+    pub fn begin_again(&mut self) {
+        self.nodes.clear();
+        self.open.clear();
+        self.ring = None;
+        self.expansions = 0;
+        for (&node, &cost) in &self.goals {
+            self.nodes.set_cost(node, cost);
+            self.open.insert(node, cost);
+        }
+    }
+
     /// Expands nodes until `until` holds or `budget` nodes are expanded.
     ///
     /// `graph` must be the one D* was told of so far, with as many nodes.
@@ -168,6 +183,26 @@ impl Dstar {
             // Both ends of every edge: a lowered cost spreads from the end that is nearer to the goal.
             self.reopen(node);
             graph.neighbours(node, |neighbour, _| self.reopen(neighbour));
+        }
+    }
+
+    /// Tells that the step between `a` and `b` costs `cost` now, in either direction: what [`changed`](Self::changed) does,
+    /// for one edge, but nothing is put on the list that it makes no difference to.
+    ///
+    /// A cost that is told too low does no harm where neither's [`next`](Self::next) is the other. A step that is no part
+    /// of the ways known, and would not shorten them, need not be told at all. Numbers that are no node are passed over.
+    pub fn step_changed(&mut self, a: usize, b: usize, cost: f64) {
+        if a >= self.len() || b >= self.len() {
+            return;
+        }
+        self.end_wave();
+        for (node, other) in [(a, b), (b, a)] {
+            let through = self.nodes.cost(other) + cost;
+            if self.next(node) == Some(other) && through != self.nodes.cost(node) {
+                self.insert(node, through);
+            } else if through < self.nodes.cost(node) {
+                self.reopen(other);
+            }
         }
     }
 
@@ -223,12 +258,14 @@ impl Dstar {
             return match (self.first_bucket(ring), until) {
                 (None, _) => true,
                 (Some(first), Until::Settled(node)) => first > ring.bucket_of(self.cost_to_go(node)),
+                (Some(first), Until::Within(cost)) => first > ring.bucket_of(cost),
                 (Some(_), Until::WholeField) => false,
             };
         }
         match (self.open.least_key(), until) {
             (None, _) => true,
             (Some(least), Until::Settled(node)) => least >= self.cost_to_go(node),
+            (Some(least), Until::Within(cost)) => least >= cost,
             (Some(_), Until::WholeField) => false,
         }
     }

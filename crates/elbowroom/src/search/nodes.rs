@@ -26,6 +26,12 @@ impl Nodes {
         Self { costs: vec![0; len], pointers: vec![NONE; len] }
     }
 
+    /// As if none had ever been reached.
+    pub(super) fn clear(&mut self) {
+        self.costs.fill(0);
+        self.pointers.fill(NONE);
+    }
+
     pub(super) fn len(&self) -> usize {
         self.costs.len()
     }

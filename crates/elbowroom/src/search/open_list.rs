@@ -45,6 +45,12 @@ impl OpenList {
         Self { heap: Vec::new(), slots: vec![ABSENT; len] }
     }
 
+    /// Takes everything off.
+    pub(super) fn clear(&mut self) {
+        self.heap.clear();
+        self.slots.fill(ABSENT);
+    }
+
     /// Whether `node` is on the list, or in the ring.
     pub(super) fn contains(&self, node: usize) -> bool {
         self.slots[node] != ABSENT
