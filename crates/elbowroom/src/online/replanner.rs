@@ -31,8 +31,9 @@ const STRETCHES: [f64; 4] = [1.2, 0.6, 0.3, 0.1];
 /// How far the arm may be from where its motion has it before the motion counts as lost (rad, rad/s).
 const ASTRAY: f64 = 1e-6;
 
-/// Ways to get out of the way that are tried.
+/// Ways to get out of the way that are tried to find the best, and as long as none is safe.
 const RETREATS: usize = 60;
+const MOST_RETREATS: usize = 300;
 
 /// How far after its end a motion out of the way is looked at (s): not needed for it to be safe, but better.
 const FAR: f64 = 25.0;
@@ -401,11 +402,12 @@ impl Search<'_> {
         // Motions to rests, and until when the arm may stay there.
         let mut rests = vec![(stop.clone(), self.safe_until(&stop))];
         let (mut best, mut latest) = rests[0].clone();
-        for i in 0..RETREATS {
-            if latest.is_infinite() || !(self.keep_going)() {
+        for i in 0..MOST_RETREATS {
+            let is_safe = latest >= best.end() + HOLD;
+            if latest.is_infinite() || (is_safe && i >= RETREATS) || !(self.keep_going)() {
                 break;
             }
-            let far = 0.2 + 2.8 * i as f64 / RETREATS as f64;
+            let far = 0.2 + 2.8 * (i % RETREATS) as f64 / RETREATS as f64;
             let motion = if i % 2 == 0 {
                 let places = [self.state.position.clone(), self.near(&self.state.position, far, rng)];
                 departing(self.now, self.state, &vias_at(&places), self.limits).ok().flatten()
