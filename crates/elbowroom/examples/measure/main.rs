@@ -2,7 +2,8 @@
 //!
 //! `measure map SCENE POINTS RUNS OUT`, `measure field MASK POINTS GOAL RUNS OUT`, `measure repair SCENE POINTS RUNS`,
 //! `measure plan SCENE TASK POINTS PLANNER OBJECTIVE RUNS`, `measure swarm RUNS`, `measure timing SCENE VIAS RUNS`,
-//! `measure online SCENE POINTS MOVING UPKEEP UPDATES COMPARE RUNS`.
+//! `measure online SCENE POINTS MOVING UPKEEP UPDATES COMPARE RUNS`,
+//! `measure repaired SCENE POINTS MOVES`, `measure replan SCENE POINTS MOVING SECONDS DEADLINE_MS RUNS`.
 //! Times are of the wall (ms), set-up and answers' files left out; `RAYON_NUM_THREADS` says how many cores.
 
 mod field;
@@ -10,6 +11,7 @@ mod map;
 mod online;
 mod plan;
 mod repair;
+mod replan;
 mod runs;
 mod scenes;
 mod swarm;
@@ -35,6 +37,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["online", scene, points, moving, upkeep, updates, compare, runs] => {
             let counts = [updates.parse()?, compare.parse()?, runs.parse()?];
             online::measure([scene, moving, upkeep], points.parse()?, counts)?
+        }
+        ["repaired", scene, points, moves] => online::repaired(scene, points.parse()?, moves.parse()?)?,
+        ["replan", scene, points, moving, seconds, deadline, runs] => {
+            let deadline = if deadline == "none" { None } else { Some(deadline.parse()?) };
+            let (moving, seconds, runs) = (moving.parse()?, seconds.parse()?, runs.parse()?);
+            replan::measure(scene, points.parse()?, &replan::Run { moving, seconds, deadline, runs })?
         }
         ["swarm", runs] => swarm::measure(runs.parse()?)?,
         ["timing", scene, vias, runs] => timing::measure(scene, vias, runs.parse()?)?,

@@ -128,6 +128,60 @@ fn follow(
     Ok((found, times))
 }
 
+/// One obstacle after the other moves by a cell and back again: the cost-to-go repaired to the path of the first task, and
+/// everywhere, each against a roadmap from scratch. That the fields are equal, to the last bit, is looked at outside the
+/// times.
+pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
+    let scene = scenes::load(file, points)?;
+    let task = scene.tasks.first().ok_or("the scene has no task")?.clone();
+    let q = configurations(&scene, &task.start)?[0];
+    let home = scene.obstacles.clone();
+    let mut found = serde_json::Map::new();
+    for to_path in [true, false] {
+        let work = |roadmap: &mut Roadmap| {
+            if to_path { drop(roadmap.path_from(&q)) } else { drop(roadmap.whole_field()) }
+        };
+        let mut roadmap = Roadmap::new(scene.clone(), &task)?.with_upkeep(Upkeep::Repair);
+        work(&mut roadmap);
+        let (mut repairs, mut rebuilds) = (Vec::new(), Vec::new());
+        for index in 0..moves {
+            let mut obstacles = home.clone();
+            let which = (index / 2) % home.len();
+            if index % 2 == 0 {
+                let way = Vector::polar(scene.grid.step(), TAU * 0.618 * (index / 2) as f64);
+                obstacles[which] = shifted(&obstacles[which], way)?;
+            }
+            let now = Scene { obstacles: obstacles.clone(), ..scene.clone() };
+            timed(&mut repairs, || {
+                roadmap.move_obstacles(obstacles);
+                work(&mut roadmap);
+            });
+            let fresh = timed(&mut rebuilds, || {
+                Roadmap::new(now, &task).map(|mut fresh| {
+                    work(&mut fresh);
+                    fresh
+                })
+            });
+            let mut fresh = fresh?;
+            if to_path {
+                assert_eq!(cost(&roadmap.path_from(&q)), cost(&fresh.path_from(&q)), "the costs differ");
+            } else {
+                assert!(roadmap.whole_field() == fresh.whole_field(), "the fields differ");
+            }
+        }
+        let mut ratios: Vec<f64> = repairs.iter().zip(&rebuilds).map(|(a, b)| b / a).collect();
+        ratios.sort_by(f64::total_cmp);
+        let name = if to_path { "to_path" } else { "whole_field" };
+        let median = ratios.get(ratios.len() / 2);
+        found.insert(
+            name.into(),
+            json!({ "repair_ms": spread(repairs), "rebuild_ms": spread(rebuilds),
+                "times_as_fast": { "median": median, "least": ratios.first() } }),
+        );
+    }
+    Ok(found.into())
+}
+
 fn from_scratch(scene: Scene, task: &Task, q: &Configuration<2>) -> Result<Result<Route, NoRoute>, String> {
     let mut roadmap = Roadmap::new(scene, task).map_err(|error| error.to_string())?;
     Ok(roadmap.path_from(q))
@@ -145,7 +199,7 @@ fn timed<T>(times: &mut Vec<f64>, work: impl FnOnce() -> T) -> T {
 }
 
 /// Median, 99.9th hundredth and worst.
-fn spread(mut times: Vec<f64>) -> Value {
+pub(crate) fn spread(mut times: Vec<f64>) -> Value {
     times.sort_by(f64::total_cmp);
     let at =
         |share: f64| times.get(((times.len() as f64 * share) as usize).min(times.len().saturating_sub(1)));
