@@ -11,7 +11,7 @@ use crate::scene::{Course, Mover, Place, Scene};
 use crate::trajectory::{
     Motion, Piece, SpeedLimits, State, TICK, brake, departing, fastest_durations, quintic_through, vias_at,
 };
-use crate::verify::{Verdict, VerifySettings, Violation, verify_among};
+use crate::verify::{Verdict, VerifySettings, Violation, clear_until, verify_among};
 
 /// How long a motion's end has to stay clear of obstacles whose course is known (s).
 const HOLD: f64 = 8.0;
@@ -154,7 +154,12 @@ impl Replanner {
         keep_going: &(dyn Fn() -> bool + Sync),
     ) -> Update {
         self.updates += 1;
-        let search = Search { scene: &self.scene, limits: &self.limits, movers, now, state, keep_going };
+        let certain = movers
+            .iter()
+            .map(|mover| if is_doubtful(mover) { mover.on(Course::Absent) } else { mover.clone() })
+            .collect();
+        let search =
+            Search { scene: &self.scene, limits: &self.limits, movers, certain, now, state, keep_going };
         let rest = self.rest(now, state);
         let verdict_of_rest = rest.as_ref().map(|rest| search.judge(rest));
         let is_safe = verdict_of_rest.as_ref().is_some_and(Verdict::is_safe);
@@ -180,7 +185,7 @@ impl Replanner {
         }
         // Nothing is proved to be safe: what is safe the longest leaves the most time to find something.
         let going_on =
-            rest.zip(verdict_of_rest).filter(|(_, other)| clear_until(other) >= clear_until(&verdict));
+            rest.zip(verdict_of_rest).filter(|(_, other)| first_fault(other) >= first_fault(&verdict));
         if let Some((_, verdict)) = going_on {
             return self.keep(Some(verdict));
         }
@@ -229,6 +234,8 @@ struct Search<'a> {
     scene: &'a Scene,
     limits: &'a [SpeedLimits],
     movers: &'a [Mover],
+    /// Those of them whose course is known.
+    certain: Vec<Mover>,
     now: f64,
     state: &'a State,
     keep_going: &'a (dyn Fn() -> bool + Sync),
@@ -237,38 +244,52 @@ struct Search<'a> {
 impl Search<'_> {
     /// The verifier on `motion`: to its end among all, and for [`HOLD`] more among those whose course is known.
     fn judge(&self, motion: &Motion) -> Verdict {
-        self.judge_holding(motion, HOLD)
-    }
-
-    /// Until when the arm is safe that runs `motion` and then stands, as far as is looked ahead (s).
-    fn safe_until(&self, motion: &Motion) -> f64 {
-        clear_until(&self.judge_holding(motion, FAR))
-    }
-
-    fn judge_holding(&self, motion: &Motion, hold: f64) -> Verdict {
         let settings = VerifySettings::default();
-        let doubtful =
-            |mover: &&Mover| matches!(mover.course(), Course::Unknown { .. } | Course::Chase { .. });
-        if self.movers.iter().any(|mover| doubtful(&mover)) {
+        if self.movers.iter().any(is_doubtful) {
             let verdict = verify_among(self.scene, self.movers, motion, &settings, &|| true);
             if !verdict.is_safe() {
                 return verdict;
             }
         }
-        let certain: Vec<Mover> = self
-            .movers
-            .iter()
-            .map(|mover| if doubtful(&mover) { mover.on(Course::Absent) } else { mover.clone() })
-            .collect();
-        let end = motion.end();
-        let held = standing(&motion.at(end).position, end, hold);
-        match motion.clone().then(held) {
-            Ok(held) => verify_among(self.scene, &certain, &held, &settings, &|| true),
-            Err(_) => verify_among(self.scene, self.movers, motion, &settings, &|| true),
+        match held(motion, HOLD) {
+            Some(held) => verify_among(self.scene, &self.certain, &held, &settings, &|| true),
+            None => verify_among(self.scene, self.movers, motion, &settings, &|| true),
         }
     }
 
+    /// Until when the arm is safe that runs `motion` and then stands for `hold` (s); infinite if it is all along. A time
+    /// when it is not, which need not be the first, if `any_will_do`.
+    fn clear_until(&self, motion: &Motion, hold: f64, any_will_do: bool) -> f64 {
+        let settings = VerifySettings::default();
+        let look = |movers: &[Mover], motion: &Motion| {
+            clear_until(self.scene, movers, motion, &settings, any_will_do)
+        };
+        if self.movers.iter().any(is_doubtful) {
+            let until = look(self.movers, motion);
+            if until < f64::INFINITY {
+                return until;
+            }
+        }
+        match held(motion, hold) {
+            Some(held) => look(&self.certain, &held),
+            None => look(self.movers, motion),
+        }
+    }
+
+    /// Until when the arm is safe that runs `motion` and then stands, as far as is looked ahead (s).
+    fn safe_until(&self, motion: &Motion) -> f64 {
+        self.clear_until(motion, FAR, false)
+    }
+
+    /// Whether [`judge`](Self::judge) will call `motion` safe.
+    fn is_safe(&self, motion: &Motion) -> bool {
+        self.clear_until(motion, HOLD, true) == f64::INFINITY
+    }
+
     fn safe(&self, motion: Motion) -> Option<(Motion, Verdict)> {
+        if !self.is_safe(&motion) {
+            return None;
+        }
         let verdict = self.judge(&motion);
         verdict.is_safe().then_some((motion, verdict))
     }
@@ -462,8 +483,19 @@ fn unit(rng: &mut ChaCha8Rng) -> f64 {
     (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
+/// Whether nobody knows where it will be.
+fn is_doubtful(mover: &Mover) -> bool {
+    matches!(mover.course(), Course::Unknown { .. } | Course::Chase { .. })
+}
+
+/// `motion`, and standing at its end for `hold` (s).
+fn held(motion: &Motion, hold: f64) -> Option<Motion> {
+    let end = motion.end();
+    motion.clone().then(standing(&motion.at(end).position, end, hold)).ok()
+}
+
 /// When the first thing goes wrong (s); infinite if nothing does.
-fn clear_until(verdict: &Verdict) -> f64 {
+fn first_fault(verdict: &Verdict) -> f64 {
     verdict.violations.first().map_or(f64::INFINITY, Violation::time)
 }
 

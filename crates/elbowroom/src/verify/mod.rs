@@ -23,6 +23,7 @@ mod verdict;
 use crate::arm::Arm;
 use crate::scene::{Mover, Scene};
 use crate::trajectory::Motion;
+use sweep::Passage;
 
 pub(crate) use bound::images;
 pub use bound::{BoundError, OpenJoints, Reachability, bound_over_joints};
@@ -110,8 +111,8 @@ pub fn verify_among<A: Arm>(
     let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
     let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
     let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
-    let least_clearance =
-        sweep::check((scene, movers), &pieces, &passed_jumps, settings, keep_going, &mut violations);
+    let passage = Passage { scene, movers, pieces: &pieces, passed_jumps: &passed_jumps };
+    let least_clearance = passage.check(settings, keep_going, &mut violations);
     violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
     Verdict {
         violations,
@@ -120,4 +121,34 @@ pub fn verify_among<A: Arm>(
         motion_margins: reports.iter().map(|report| report.motion).collect(),
         posture_changes: posture_changes::posture_changes(&pieces),
     }
+}
+
+/// When the first of the violations begins that [`verify_among`] would report (s), infinite where there is none; the time
+/// of any of them, which costs less, if `any_will_do`.
+///
+/// How deep contacts are and how near the arm comes to what it does not touch costs the most of a verdict, and is not
+/// worked out. Where the budget of evaluations runs out, this may decide what a verdict does not.
+pub(crate) fn clear_until<A: Arm>(
+    scene: &Scene<A>,
+    movers: &[Mover],
+    motion: &Motion,
+    settings: &VerifySettings,
+    any_will_do: bool,
+) -> f64 {
+    let joints = scene.arm.joints();
+    if motion.joints() != joints.len() {
+        return motion.start();
+    }
+    let mut violations = Vec::new();
+    let pieces = limits::workable_pieces(motion, &mut violations);
+    let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
+    for (j, joint) in joints.iter().enumerate() {
+        limits::check(joint, j, pieces.iter().copied(), &mut violations);
+    }
+    let first = violations.iter().map(Violation::time).fold(f64::INFINITY, f64::min);
+    if any_will_do && first < f64::INFINITY {
+        return first;
+    }
+    let passage = Passage { scene, movers, pieces: &pieces, passed_jumps: &passed_jumps };
+    passage.clear_until(settings, first, any_will_do)
 }

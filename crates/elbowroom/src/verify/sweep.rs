@@ -37,63 +37,102 @@ const LEAST_SOUNDINGS: usize = 4;
 /// Rounds of taking the better two thirds of a dip; each tells the place better by half.
 const THIRDS: u32 = 40;
 
-/// Reports contacts and what stays undecided; gives the least clearance of all. A jump between pieces, which
-/// passed as rounding, must not carry a link through what stays of the clearance: its way is kept on top.
-pub(super) fn check<A: Arm>(
-    (scene, movers): (&Scene<A>, &[Mover]),
-    pieces: &[&Piece],
-    passed_jumps: &[f64],
-    settings: &VerifySettings,
-    keep_going: &dyn Fn() -> bool,
-    violations: &mut Vec<Violation>,
-) -> Option<Clearance> {
-    let arm = &scene.arm;
-    let stretches: Vec<Stretch> =
-        pieces.iter().map(|piece| Stretch::new(piece, arm.self_collision())).collect();
-    let bodies: Vec<Body> = scene.obstacles.iter().map(|obstacle| Body::new(&obstacle.shape)).collect();
-    // Each link in its own frame, for those after it.
-    let lines: Vec<[Point; 2]> = match arm.self_collision() {
-        true => arm.lengths().iter().map(|&length| [Point::new(0.0, 0.0), Point::new(length, 0.0)]).collect(),
-        false => Vec::new(),
-    };
-    let links: Vec<Body> = lines.iter().map(Body::segment).collect();
-    let way = |obstacle| movers.iter().find(|mover| mover.obstacle() == obstacle).map(Way::new);
-    let ways: Vec<Option<Way>> = (0..bodies.len()).map(way).collect();
-    let ends = stretches.first().zip(stretches.last());
-    let times = ends.map_or([0.0; 2], |(first, last)| [first.time(0.0), last.time(1.0)]);
-    let pairs = pairs(arm, &bodies, &ways, &links, passed_jumps, times);
-    // Not `max`, which would turn a margin that is not a number into one that is.
-    let margin = if settings.margin <= FLOOR { FLOOR } else { settings.margin };
-    let mut judge = Judge {
-        margin,
-        evaluations: settings.evaluations,
-        keep_going,
-        stopped: false,
-        nearest: None,
-        proved: f64::INFINITY,
-    };
-    for pair in &pairs {
-        for stretch in stretches.iter().step_by(stretches.len().div_ceil(GLANCED_AT).max(1)) {
-            for glance in 0..GLANCES {
-                judge.glance(pair, stretch, f64::from(glance) / f64::from(GLANCES));
+/// A motion, piece by piece, and a scene in time.
+pub(super) struct Passage<'a, A> {
+    pub(super) scene: &'a Scene<A>,
+    pub(super) movers: &'a [Mover],
+    pub(super) pieces: &'a [&'a Piece],
+    /// Jumps between pieces, which passed as rounding; they must not carry a link through what stays of the clearance:
+    /// its way is kept on top.
+    pub(super) passed_jumps: &'a [f64],
+}
+
+impl<A: Arm> Passage<'_, A> {
+    /// Does `work` with the pieces and with all links and what they must not touch.
+    fn with_pairs<T>(&self, work: impl FnOnce(&[Stretch], &[Pair]) -> T) -> T {
+        let arm = &self.scene.arm;
+        let stretches: Vec<Stretch> =
+            self.pieces.iter().map(|piece| Stretch::new(piece, arm.self_collision())).collect();
+        let bodies: Vec<Body> =
+            self.scene.obstacles.iter().map(|obstacle| Body::new(&obstacle.shape)).collect();
+        // Each link in its own frame, for those after it.
+        let lines: Vec<[Point; 2]> = match arm.self_collision() {
+            true => {
+                arm.lengths().iter().map(|&length| [Point::new(0.0, 0.0), Point::new(length, 0.0)]).collect()
             }
-        }
+            false => Vec::new(),
+        };
+        let links: Vec<Body> = lines.iter().map(Body::segment).collect();
+        let way = |obstacle| self.movers.iter().find(|mover| mover.obstacle() == obstacle).map(Way::new);
+        let ways: Vec<Option<Way>> = (0..bodies.len()).map(way).collect();
+        let ends = stretches.first().zip(stretches.last());
+        let times = ends.map_or([0.0; 2], |(first, last)| [first.time(0.0), last.time(1.0)]);
+        let pairs = pairs(arm, &bodies, &ways, &links, self.passed_jumps, times);
+        work(&stretches, &pairs)
     }
-    let before = violations.len();
-    for pair in &pairs {
-        if judge.stopped {
-            break;
-        }
-        violations.extend(judge.check_pair(pair, &stretches));
+
+    /// Reports contacts and what stays undecided; gives the least clearance of all.
+    pub(super) fn check(
+        &self,
+        settings: &VerifySettings,
+        keep_going: &dyn Fn() -> bool,
+        violations: &mut Vec<Violation>,
+    ) -> Option<Clearance> {
+        let mut judge = Judge::new(settings, keep_going, true);
+        self.with_pairs(|stretches, pairs| {
+            for pair in pairs {
+                for stretch in stretches.iter().step_by(stretches.len().div_ceil(GLANCED_AT).max(1)) {
+                    for glance in 0..GLANCES {
+                        judge.glance(pair, stretch, f64::from(glance) / f64::from(GLANCES));
+                    }
+                }
+            }
+            let before = violations.len();
+            for pair in pairs {
+                if judge.stopped {
+                    break;
+                }
+                violations.extend(judge.check_pair(pair, stretches));
+            }
+            if judge.stopped {
+                violations.push(Violation::Stopped {
+                    time: stretches.first().map_or(0.0, |stretch| stretch.start),
+                });
+            }
+            let decided = violations.len() == before && !stretches.is_empty();
+            judge.nearest.map(|nearest| Clearance {
+                at_least: decided.then_some(judge.proved.min(nearest.distance)),
+                ..nearest
+            })
+        })
     }
-    if judge.stopped {
-        violations.push(Violation::Stopped { time: stretches.first().map_or(0.0, |stretch| stretch.start) });
+
+    /// When the first of the violations begins that [`check`](Self::check) would report (s), or `latest` if none does
+    /// before; of any of them, if `any_will_do`.
+    pub(super) fn clear_until(&self, settings: &VerifySettings, latest: f64, any_will_do: bool) -> f64 {
+        let mut judge = Judge::new(settings, &|| true, false);
+        self.with_pairs(|stretches, pairs| {
+            let mut first = latest;
+            for pair in pairs {
+                let found = match judge.first_trouble(pair, stretches, first) {
+                    Some(Trouble::Contact { stretch, fraction }) => stretches[stretch].time(fraction),
+                    Some(Trouble::Undecided { time }) => time,
+                    None => continue,
+                };
+                first = first.min(found);
+                if any_will_do {
+                    break;
+                }
+            }
+            first
+        })
     }
-    let decided = violations.len() == before && !stretches.is_empty();
-    judge.nearest.map(|nearest| Clearance {
-        at_least: decided.then_some(judge.proved.min(nearest.distance)),
-        ..nearest
-    })
+}
+
+/// What keeps a pair from being clear.
+enum Trouble {
+    Contact { stretch: usize, fraction: f64 },
+    Undecided { time: f64 },
 }
 
 /// What is known of one pair over one piece.
@@ -110,16 +149,44 @@ struct Judge<'a> {
     evaluations: u32,
     keep_going: &'a dyn Fn() -> bool,
     stopped: bool,
+    /// Whether the least clearance is asked for.
+    measures: bool,
     nearest: Option<Clearance>,
     /// Least of the bounds that closed the intervals so far (m).
     proved: f64,
 }
 
-impl Judge<'_> {
+impl<'a> Judge<'a> {
+    fn new(settings: &VerifySettings, keep_going: &'a dyn Fn() -> bool, measures: bool) -> Self {
+        Self {
+            // Not `max`, which would turn a margin that is not a number into one that is.
+            margin: if settings.margin <= FLOOR { FLOOR } else { settings.margin },
+            evaluations: settings.evaluations,
+            keep_going,
+            stopped: false,
+            measures,
+            nearest: None,
+            proved: f64::INFINITY,
+        }
+    }
+
     fn check_pair(&mut self, pair: &Pair, stretches: &[Stretch]) -> Option<Violation> {
         let (link, against) = (pair.link + 1, pair.against);
+        match self.first_trouble(pair, stretches, f64::INFINITY)? {
+            Trouble::Contact { stretch, fraction } => {
+                let time = stretches[stretch].time(fraction);
+                let depth = self.depth(pair, &stretches[stretch..], fraction);
+                Some(Violation::Contact { time, link, against, depth })
+            }
+            Trouble::Undecided { time } => Some(Violation::Undecided { time, link, against }),
+        }
+    }
+
+    /// The first contact of a pair or, where there is none, what is not decided, in the pieces that begin before `latest`
+    /// (s).
+    fn first_trouble(&mut self, pair: &Pair, stretches: &[Stretch], latest: f64) -> Option<Trouble> {
         let mut undecided = None;
-        for (i, stretch) in stretches.iter().enumerate() {
+        for (i, stretch) in stretches.iter().enumerate().take_while(|(_, stretch)| stretch.start < latest) {
             let mut progress = Progress::default();
             let at_start = pair.clearance_at(stretch, 0.0);
             let contact = if at_start > self.margin {
@@ -128,12 +195,10 @@ impl Judge<'_> {
                 Some(0.0)
             };
             if let Some(fraction) = contact {
-                let time = stretch.time(fraction);
-                let depth = self.depth(pair, &stretches[i..], fraction);
-                return Some(Violation::Contact { time, link, against, depth });
+                return Some(Trouble::Contact { stretch: i, fraction });
             }
             if let Some(fraction) = progress.undecided {
-                undecided.get_or_insert(Violation::Undecided { time: stretch.time(fraction), link, against });
+                undecided.get_or_insert(Trouble::Undecided { time: stretch.time(fraction) });
             }
             if progress.exhausted || self.stopped {
                 break;
@@ -242,7 +307,7 @@ impl Judge<'_> {
     }
 
     fn consider(&mut self, pair: &Pair, distance: f64, time: f64) {
-        if self.nearest.is_none_or(|nearest| distance < nearest.distance) {
+        if self.measures && self.nearest.is_none_or(|nearest| distance < nearest.distance) {
             let (link, against) = (pair.link + 1, pair.against);
             self.nearest = Some(Clearance { distance, at_least: None, time, link, against });
         }
