@@ -330,11 +330,12 @@ impl Search<'_> {
             let there = Configuration(<[f64; 2]>::try_from(end.position.as_slice()).ok()?);
             let still = routes.past_still(self.movers, &there, self.keep_going);
             for path in still.iter().chain(all.iter().filter(|_| self.is_at_rest())) {
+                let pieces = self.rest_to_rest(path);
                 for wait in WAITS {
                     if !(self.keep_going)() || stop.end() + wait >= latest(&best) {
                         break;
                     }
-                    let Some(motion) = self.after_waiting(&stop, wait, path) else { break };
+                    let Some(motion) = after_waiting(&stop, wait, &pieces) else { break };
                     if motion.end() >= latest(&best) {
                         break;
                     }
@@ -352,14 +353,8 @@ impl Search<'_> {
         best.map(|(motion, verdict)| Found { motion, verdict, reaches_goal: true })
     }
 
-    /// `stop`, a wait, and then `path` from rest to rest.
-    fn after_waiting(&self, stop: &Motion, wait: f64, path: &JointPath) -> Option<Motion> {
-        let rest = stop.at(stop.end());
-        let start = stop.end() + wait;
-        let mut motion = stop.clone();
-        if wait > 0.0 {
-            motion = motion.then(standing(&rest.position, stop.end(), wait)).ok()?;
-        }
+    /// Along `path` from rest to rest, from time 0 on; no pieces where it leads nowhere.
+    fn rest_to_rest(&self, path: &JointPath) -> Vec<Piece> {
         let chosen: Vec<&Configuration<2>> =
             simplify(&self.scene.arm, &path.0, TOLERANCE * self.scene.grid.step())
                 .into_iter()
@@ -367,11 +362,9 @@ impl Search<'_> {
                 .collect();
         let vias = vias_at(&chosen);
         if vias.len() < 2 {
-            return Some(motion);
+            return Vec::new();
         }
-        let pieces = quintic_through(&vias, &fastest_durations(&vias, self.limits));
-        let later = pieces.into_iter().map(|piece| Piece { start: piece.start + start, ..piece }).collect();
-        motion.then(Motion::new(later).ok()?).ok()
+        quintic_through(&vias, &fastest_durations(&vias, self.limits))
     }
 
     /// Motions along `path` from a moving arm, ever closer to it.
@@ -452,15 +445,9 @@ impl Search<'_> {
 
     /// `way`, a wait (s) at its end, and a straight turn to rest at `to` (rad).
     fn going_on(&self, way: &Motion, wait: f64, to: &[f64]) -> Option<Motion> {
-        let rest = way.at(way.end()).position;
-        let places = [rest.clone(), to.to_vec()];
+        let places = [way.at(way.end()).position, to.to_vec()];
         let vias = vias_at(&places);
-        let start = way.end() + wait;
-        let pieces = quintic_through(&vias, &fastest_durations(&vias, self.limits));
-        let later = pieces.into_iter().map(|piece| Piece { start: piece.start + start, ..piece }).collect();
-        let waited =
-            if wait > 0.0 { way.clone().then(standing(&rest, way.end(), wait)).ok()? } else { way.clone() };
-        waited.then(Motion::new(later).ok()?).ok()
+        after_waiting(way, wait, &quintic_through(&vias, &fastest_durations(&vias, self.limits)))
     }
 
     /// A random place no farther than `far` (rad) from `q` in any joint, within the stops.
@@ -476,6 +463,20 @@ impl Search<'_> {
             })
             .collect()
     }
+}
+
+/// `way`, a wait (s) at its end, and then `pieces`, whose times count from there.
+fn after_waiting(way: &Motion, wait: f64, pieces: &[Piece]) -> Option<Motion> {
+    let start = way.end() + wait;
+    let mut motion = way.clone();
+    if wait > 0.0 {
+        motion = motion.then(standing(&way.at(way.end()).position, way.end(), wait)).ok()?;
+    }
+    if pieces.is_empty() {
+        return Some(motion);
+    }
+    let later = pieces.iter().map(|piece| Piece { start: piece.start + start, ..piece.clone() }).collect();
+    motion.then(Motion::new(later).ok()?).ok()
 }
 
 /// In [0, 1).

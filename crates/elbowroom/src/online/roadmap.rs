@@ -4,7 +4,7 @@ use crate::arm::Configuration;
 use crate::free_space::FreeSpace;
 use crate::path::{JointPath, sweep_is_free};
 use crate::planners::{ChangingGraph, Goal, Kept, PlanError, Problem};
-use crate::scene::{Obstacle, Scene, Task};
+use crate::scene::{Obstacle, Scene, Shape, Task};
 use crate::search::{Dstar, Graph, Progress, Until};
 
 /// Expansions of D* between two looks at how far the search has to go.
@@ -18,7 +18,7 @@ const WORTH_REPAIRING: f64 = 0.8;
 /// what is known of the free configurations and the certified turns between them, and D*'s cost-to-go.
 ///
 /// Where obstacles move, the maps are filled again only where something came or went, only what is near there is
-/// forgotten, and the cost-to-go is repaired, unless more than half of what it holds may be otherwise. Memory grows with
+/// forgotten, and the cost-to-go is repaired, unless most of what it holds may be otherwise. Memory grows with
 /// the part of the grid that was ever searched, not with the number of updates.
 ///
 /// The arm itself may be anywhere: [`path_from`](Self::path_from) joins it to the nodes around.
@@ -131,6 +131,9 @@ impl Roadmap {
     /// it out.
     pub fn move_obstacles(&mut self, obstacles: Vec<Obstacle>) -> Updated {
         let before = std::mem::replace(&mut self.scene.obstacles, obstacles);
+        if shapes(&before).eq(shapes(&self.scene.obstacles)) {
+            return Updated { cells: 0, repaired: Some(0) };
+        }
         let changed = self.space.refill(&before, &self.scene);
         let most = match self.upkeep {
             Upkeep::Cheaper => (WORTH_REPAIRING * self.kept.count() as f64) as usize,
@@ -229,4 +232,8 @@ impl Roadmap {
         self.kept = graph.into_kept();
         found
     }
+}
+
+fn shapes(obstacles: &[Obstacle]) -> impl Iterator<Item = &Shape> {
+    obstacles.iter().map(|obstacle| &obstacle.shape)
 }
