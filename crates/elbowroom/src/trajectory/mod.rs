@@ -1,5 +1,6 @@
 //! Motion over time: polynomial pieces per joint.
 
+mod b_spline;
 mod brake;
 mod departure;
 mod interpolate;
@@ -12,6 +13,7 @@ mod spline;
 mod timing;
 mod via;
 
+pub(crate) use b_spline::{spline_along, third_point};
 pub use brake::brake;
 pub use departure::departing;
 pub use interpolate::{Curve, MAX_ROWS, Samples, SamplesError, interpolate};
