@@ -16,15 +16,11 @@ pub(super) struct Attempt {
     vigour: f64,
 }
 
-/// For all cases, quick ones first.
-pub(super) const COARSE: [Attempt; 3] = [
+/// Quick ones first.
+pub(super) const ATTEMPTS: [Attempt; 5] = [
     Attempt { room: 0.02, lattice: 0.1, control: 0.2, vigour: 0.95 },
     Attempt { room: 0.01, lattice: 0.1, control: 0.4, vigour: 0.5 },
     Attempt { room: 0.004, lattice: 0.05, control: 0.2, vigour: 0.95 },
-];
-
-/// For when nothing else is safe.
-pub(super) const FINE: [Attempt; 2] = [
     Attempt { room: 0.001, lattice: 0.03, control: 0.2, vigour: 0.5 },
     Attempt { room: 0.0005, lattice: 0.03, control: 0.4, vigour: 0.5 },
 ];

@@ -3,7 +3,7 @@ use std::ops::Range;
 use rand_chacha::ChaCha8Rng;
 use rand_core::Rng;
 
-use super::escape::{COARSE, FINE};
+use super::escape::ATTEMPTS;
 use super::search::{HOLD, Search, after_waiting, standing};
 use crate::arm::JointLimits;
 use crate::trajectory::{Motion, departing, fastest_durations, quintic_through, vias_at};
@@ -59,19 +59,14 @@ impl Search<'_> {
     /// A motion to rest somewhere, on the spot or at places around, with rests in between if it must be: one that is safe
     /// as far as is looked ahead, or else the one that is safe the longest.
     ///
-    /// Random ways come first, for mostly one of the first will do; then searches in space and time, which miss little.
+    /// Random ways come first, for mostly one of the first will do; where none is safe, searches in space and time, which
+    /// miss little.
     pub(super) fn retreat(&self, rng: &mut ChaCha8Rng) -> Motion {
         let stop = self.stop().unwrap_or_else(|| standing(&self.state.position, self.now, HOLD));
         let until = self.safe_until(&stop);
         let mut ways = Ways { rests: vec![(stop.clone(), until)], best: (stop, until) };
         self.wander(0..TRIES, &mut ways, rng);
-        for attempt in &COARSE {
-            if ways.is_best_possible() {
-                break;
-            }
-            self.escape(attempt).into_iter().for_each(|(motion, until)| ways.consider(motion, until));
-        }
-        for attempt in &FINE {
+        for attempt in &ATTEMPTS {
             if ways.is_safe() {
                 break;
             }

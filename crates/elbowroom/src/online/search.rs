@@ -6,7 +6,7 @@ use crate::verify::{Verdict, VerifySettings, clear_until, verify_among};
 pub(super) const HOLD: f64 = 8.0;
 
 /// How long it is best to stay clear (s), for motions that end elsewhere than at a goal.
-pub(super) const FAR: f64 = 60.0;
+pub(super) const FAR: f64 = 25.0;
 
 /// One update's view of the world.
 pub(super) struct Search<'a> {

@@ -121,11 +121,7 @@ impl Search<'_> {
             let end = self.now + stretch;
             let first = motion.before(end)?;
             let stop = brake(end, &motion.at(end), self.limits)?;
-            let part = first.then(Motion::new(vec![stop]).ok()?).ok()?;
-            if self.safe_until(&part) < f64::INFINITY {
-                return None;
-            }
-            self.safe(part)
+            self.safe(first.then(Motion::new(vec![stop]).ok()?).ok()?)
         })
     }
 }
