@@ -28,8 +28,8 @@ const KNOWN_AHEAD: f64 = 60.0;
 /// Radius of the discs that move (m).
 const RADIUS: f64 = 0.02;
 
-/// Discs leave the base this much room (m), for it cannot get out of the way.
-const ROOM_AT_BASE: f64 = 0.1;
+/// Discs stay farther from the base than this share of the reach: where the arm can get out of the way of all of them.
+const ROOM_AT_BASE: f64 = 0.6;
 
 /// How often the memory held is looked at in all.
 const LOOKS_AT_MEMORY: usize = 6;
@@ -147,7 +147,8 @@ fn courses(scene: &mut Scene, run: &Run) -> Result<Vec<Flight>, Box<dyn Error>> 
     let mut rng = ChaCha8Rng::seed_from_u64(10);
     let mut unit = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let (base, reach) = (scene.arm.base(), scene.arm.lengths().iter().sum::<f64>());
-    let mut place = || base + Vector::polar(reach * (0.3 + 1.1 * unit()), TAU * unit());
+    let mut place =
+        || base + Vector::polar(reach * (ROOM_AT_BASE + (1.4 - ROOM_AT_BASE) * unit()), TAU * unit());
     let mut courses = Vec::new();
     for _ in 0..run.moving {
         let from = place();
@@ -155,7 +156,7 @@ fn courses(scene: &mut Scene, run: &Run) -> Result<Vec<Flight>, Box<dyn Error>> 
         let mut waypoints = vec![Waypoint { time, shift: Vector::new(0.0, 0.0) }];
         while time < run.seconds + KNOWN_AHEAD {
             let to = place();
-            if Segment::new(at, to).distance_to_point(base) < ROOM_AT_BASE {
+            if Segment::new(at, to).distance_to_point(base) < ROOM_AT_BASE * reach {
                 continue;
             }
             // 0.05 to 0.1 m/s, by where it goes.
