@@ -30,12 +30,14 @@ tables: setup
 table2: setup
 	$(BIN)/python -m bench.table2
 
-# Safety at length: 100,000 random worlds, a million edges and pieces, 10,000 worlds by brute force; an hour on two cores.
+# Safety at length: 100,000 random worlds, a million edges and pieces, 10,000 worlds by brute force, and 10,000 episodes
+# among moving discs; an hour and a half on two cores.
 campaign:
 	cargo test --release -p elbowroom --test campaign -- --ignored --nocapture --test-threads 1
 	cargo test --release -p elbowroom --test bound -- --ignored --nocapture
+	cargo test --release -p elbowroom --test replanner -- --ignored --nocapture
 
-# elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about a quarter of an hour.
+# elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about half an hour.
 # A peer that does not install is a row that says so. OMPL in C++ takes part where libompl-dev and cmake are installed.
 bench:
 	@test -x .venv-bench/bin/python || $(PYTHON) -m venv .venv-bench

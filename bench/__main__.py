@@ -12,12 +12,13 @@ from typing import Any
 from bench import machine, ompl_peers, plots, table
 from bench.clock import MEASURE, OUT, ROOT
 from bench.entries import Comparison, Entry, Goal, Section, Table
-from bench.work import field, free_space, paths, plan, repair, sizes, swarm, timing
+from bench.work import field, free_space, moving, paths, plan, repair, sizes, swarm, timing
 
 WORK: dict[str, Callable[[], Section]] = {
     "map": free_space.measure,
     "field": field.measure,
     "repair": repair.measure,
+    "moving": moving.measure,
     "plan": plan.measure,
     "paths": lambda: paths.measure(say),
     "swarm": swarm.measure,

@@ -19,8 +19,9 @@ use super::{Outcome, scenes};
 /// Time between two updates (s).
 const TICK: f64 = 0.02;
 
-/// Every so many updates the same is asked of a replanner that knows nothing yet.
-const COMPARE: usize = 250;
+/// Every so many updates the same is asked of a replanner that knows nothing yet: not always one of those that look
+/// for something better.
+const COMPARE: usize = 247;
 
 /// How far ahead (s) the arm is told where the discs will be.
 const KNOWN_AHEAD: f64 = 60.0;

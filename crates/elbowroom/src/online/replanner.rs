@@ -125,15 +125,21 @@ impl Replanner {
         let rest = self.rest(now, state);
         let verdict_of_rest = rest.as_ref().map(|rest| search.judge(rest));
         let is_safe = verdict_of_rest.as_ref().is_some_and(Verdict::is_safe);
-        if is_safe && self.reaches_goal && !self.updates.is_multiple_of(LOOK_EVERY) {
+        if is_safe && self.reaches_goal && self.updates % LOOK_EVERY != 1 {
             return self.keep(verdict_of_rest);
         }
         let arrival = if is_safe && self.reaches_goal { self.motion.end() } else { f64::INFINITY };
-        if let Some(found) = search.to_goal(&mut self.routes, arrival) {
-            return self.run(found.motion, found.reaches_goal, found.verdict);
+        let refused = match search.to_goal(&mut self.routes, arrival) {
+            Ok((motion, verdict)) => return self.run(motion, true, verdict),
+            Err(refused) => refused,
+        };
+        if arrival.is_infinite()
+            && let Some((motion, verdict)) = refused.iter().find_map(|motion| search.part_of(motion))
+        {
+            return self.run(motion, false, verdict);
         }
         if is_safe {
-            let may_look = !self.reaches_goal && self.updates.is_multiple_of(LOOK_EVERY);
+            let may_look = !self.reaches_goal && self.updates % LOOK_EVERY == 1;
             let safer = rest.filter(|_| may_look).and_then(|rest| search.safer(&rest, &mut self.rng));
             return match safer {
                 Some((motion, verdict)) => self.run(motion, false, verdict),

@@ -59,15 +59,15 @@ impl Search<'_> {
     /// A motion to rest somewhere, on the spot or at places around, with rests in between if it must be: one that is safe
     /// as far as is looked ahead, or else the one that is safe the longest.
     ///
-    /// Random ways come first, for mostly one of the first will do; where none is safe, searches in space and time, which
-    /// miss little.
+    /// Random ways come first, for mostly one of the first will do; then searches in space and time, which miss little: a
+    /// quick one, and others where nothing is safe.
     pub(super) fn retreat(&self, rng: &mut ChaCha8Rng) -> Motion {
         let stop = self.stop().unwrap_or_else(|| standing(&self.state.position, self.now, HOLD));
         let until = self.safe_until(&stop);
         let mut ways = Ways { rests: vec![(stop.clone(), until)], best: (stop, until) };
         self.wander(0..TRIES, &mut ways, rng);
-        for attempt in &ATTEMPTS {
-            if ways.is_safe() {
+        for (i, attempt) in ATTEMPTS.iter().enumerate() {
+            if ways.is_best_possible() || (ways.is_safe() && i > 0) {
                 break;
             }
             self.escape(attempt).into_iter().for_each(|(motion, until)| ways.consider(motion, until));

@@ -22,21 +22,21 @@ const TOLERANCE: f64 = 1.0;
 /// Rounds of following the path more closely where the verifier refuses.
 const ROUNDS: usize = 3;
 
-/// A safe motion towards a goal.
-pub(super) struct Found {
-    pub(super) motion: Motion,
-    pub(super) verdict: Verdict,
-    /// Whether it is all of the way.
-    pub(super) reaches_goal: bool,
-}
-
 impl Search<'_> {
     /// The safe motion to a goal that arrives first, at least a little before `arrival` (s): at once past the obstacles
-    /// as they are, or past those that stand still, after a wait where it must be; or the first part of one.
-    pub(super) fn to_goal(&self, routes: &mut Routes, arrival: f64) -> Option<Found> {
-        let here = Configuration(<[f64; 2]>::try_from(self.state.position.as_slice()).ok()?);
-        let mut best: Option<(Motion, Verdict)> = None;
+    /// as they are, or past those that stand still, after a wait where it must be.
+    ///
+    /// # Errors
+    /// Where there is none, motions to a goal of which a first part may be safe.
+    pub(super) fn to_goal(
+        &self,
+        routes: &mut Routes,
+        arrival: f64,
+    ) -> Result<(Motion, Verdict), Vec<Motion>> {
         let mut refused: Vec<Motion> = Vec::new();
+        let [a, b] = self.state.position[..] else { return Err(refused) };
+        let here = Configuration([a, b]);
+        let mut best: Option<(Motion, Verdict)> = None;
         let latest = |best: &Option<(Motion, Verdict)>| {
             best.as_ref().map_or(arrival - WORTH_CHANGING, |(motion, _)| motion.end())
         };
@@ -52,8 +52,8 @@ impl Search<'_> {
             }
         }
         if let Some(stop) = self.stop().filter(|_| (self.keep_going)()) {
-            let end = stop.at(stop.end());
-            let there = Configuration(<[f64; 2]>::try_from(end.position.as_slice()).ok()?);
+            let end = stop.at(stop.end()).position;
+            let there = Configuration([end[0], end[1]]);
             let still = routes.past_still(self.movers, &there, self.keep_going);
             for path in still.iter().chain(all.iter().filter(|_| self.is_at_rest())) {
                 let pieces = self.rest_to_rest(path);
@@ -72,11 +72,7 @@ impl Search<'_> {
                 }
             }
         }
-        if best.is_none() && arrival.is_infinite() {
-            let part = refused.iter().find_map(|motion| self.part_of(motion));
-            return part.map(|(motion, verdict)| Found { motion, verdict, reaches_goal: false });
-        }
-        best.map(|(motion, verdict)| Found { motion, verdict, reaches_goal: true })
+        best.ok_or(refused)
     }
 
     /// Along `path` from rest to rest, from time 0 on; no pieces where it leads nowhere.
@@ -112,8 +108,9 @@ impl Search<'_> {
         motions
     }
 
-    /// As much of `motion` as is safe with a brake after it.
-    fn part_of(&self, motion: &Motion) -> Option<(Motion, Verdict)> {
+    /// As much of `motion` as is safe with a brake after it, as far as is looked ahead: the way that is open for now may be
+    /// a trap.
+    pub(super) fn part_of(&self, motion: &Motion) -> Option<(Motion, Verdict)> {
         STRETCHES.iter().filter(|stretch| **stretch < motion.duration()).find_map(|stretch| {
             if !(self.keep_going)() {
                 return None;
@@ -121,7 +118,12 @@ impl Search<'_> {
             let end = self.now + stretch;
             let first = motion.before(end)?;
             let stop = brake(end, &motion.at(end), self.limits)?;
-            self.safe(first.then(Motion::new(vec![stop]).ok()?).ok()?)
+            let part = first.then(Motion::new(vec![stop]).ok()?).ok()?;
+            if self.safe_until(&part) < f64::INFINITY {
+                return None;
+            }
+            let verdict = self.judge(&part);
+            verdict.is_safe().then_some((part, verdict))
         })
     }
 }
