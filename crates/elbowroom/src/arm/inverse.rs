@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Configuration, Posture, TwoLinkArm};
+use super::{Posture, TwoLink};
 use crate::geometry::Point;
 
 /// Rounding allowed between a tip and the edge of the reach, as a share of the reach.
@@ -29,7 +29,7 @@ pub enum InverseError {
     },
 }
 
-impl TwoLinkArm {
+impl TwoLink {
     /// Joint angles in (-π, π] that put the tip at `tip` with the elbow on the `posture` side, whatever
     /// the joint limits: eqs (1) to (4) of the paper, with half angles in place of the cosine rule.
     ///
@@ -39,7 +39,7 @@ impl TwoLinkArm {
     ///
     /// # Errors
     /// [`InverseError::OutOfReach`] if no configuration puts the tip there.
-    pub fn inverse_unlimited(&self, tip: Point, posture: Posture) -> Result<Configuration<2>, InverseError> {
+    pub fn inverse_unlimited(&self, tip: Point, posture: Posture) -> Result<[f64; 2], InverseError> {
         let [l1, l2] = self.lengths();
         let ray = tip - self.base();
         let distance = ray.length();
@@ -58,7 +58,7 @@ impl TwoLinkArm {
         };
         let (sin, cos) = libm::sincos(q2);
         let q1 = crate::geometry::wrap_angle(ray.angle() - libm::atan2(l2 * sin, l1 + l2 * cos));
-        Ok(Configuration([q1, q2]))
+        Ok([q1, q2])
     }
 
     /// Every configuration within the joint limits that puts the tip at `tip` in `posture`: one, or
@@ -70,30 +70,26 @@ impl TwoLinkArm {
     ///
     /// # Example
     /// ```
-    /// use elbowroom::arm::{Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+    /// use elbowroom::arm::{Arm, Joint, Posture};
     /// use elbowroom::geometry::Point;
     ///
-    /// let free = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
-    /// let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [0.5, 0.4], 0.0, [free, free])?;
+    /// let arm = Arm::new(Point::new(0.0, 0.0), vec![0.5, 0.4], 0.0, vec![Joint::CONTINUOUS; 2], false)?;
+    /// let arm = arm.two_link().ok_or("two links")?;
     /// let tip = Point::new(0.6, 0.2);
     /// let q = arm.inverse(tip, Posture::ElbowUp)?[0];
-    /// assert!(q.0[1] < 0.0);
+    /// assert!(q[1] < 0.0);
     /// assert!(arm.tip(&q).distance(tip) < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn inverse(&self, tip: Point, posture: Posture) -> Result<Vec<Configuration<2>>, InverseError> {
+    pub fn inverse(&self, tip: Point, posture: Posture) -> Result<Vec<[f64; 2]>, InverseError> {
         let q = self.inverse_unlimited(tip, posture)?;
         for (j, joint) in self.joints().iter().enumerate() {
-            if joint.limits.places(q.0[j]).next().is_none() {
-                return Err(InverseError::OutsideJointLimits { joint: j + 1, angle: q.0[j] });
+            if joint.limits.places(q[j]).next().is_none() {
+                return Err(InverseError::OutsideJointLimits { joint: j + 1, angle: q[j] });
             }
         }
         let [first, second] = self.joints();
         let second = second.limits;
-        Ok(first
-            .limits
-            .places(q.0[0])
-            .flat_map(|q1| second.places(q.0[1]).map(move |q2| Configuration([q1, q2])))
-            .collect())
+        Ok(first.limits.places(q[0]).flat_map(|q1| second.places(q[1]).map(move |q2| [q1, q2])).collect())
     }
 }

@@ -1,4 +1,4 @@
-use super::{Arm, JointLimits, PlanarArm};
+use super::{Arm, Configuration};
 use crate::geometry::{Point, Vector};
 
 /// Steps before the search from one configuration is given up.
@@ -10,25 +10,25 @@ const NEAR_ENOUGH: f64 = 1e-12;
 /// Damping at first, as a share of the reach squared; it shrinks while steps help and grows when they do not.
 const DAMPING: f64 = 1e-3;
 
-impl PlanarArm {
+impl Arm {
     /// A configuration within the joint limits that puts the tip at `tip`, reached from `near` (rad) by damped least
     /// squares; `None` where the search ends short of it, which proves nothing.
     ///
     /// # Reference
     /// Wampler, *Manipulator inverse kinematic solutions based on vector formulations and damped least-squares methods*,
     /// IEEE T-SMC 16(1), 1986; the damping is adapted as in Levenberg's and Marquardt's method.
-    pub fn inverse_near(&self, tip: Point, near: &[f64]) -> Option<Vec<f64>> {
+    pub fn inverse_near(&self, tip: Point, near: &[f64]) -> Option<Configuration> {
         let [_, farthest] = self.reach();
-        let mut q = self.within_stops(near.to_vec());
-        let mut off = tip - self.tip_at(&q);
+        let mut q = self.clamped(near.into());
+        let mut off = tip - self.tip(&q);
         let mut damping = DAMPING;
         for _ in 0..MOST_STEPS {
             if off.length() <= NEAR_ENOUGH * farthest {
                 return Some(q);
             }
             let columns = self.jacobian(&q);
-            let next = self.within_stops(step(&q, &columns, off, damping * farthest * farthest));
-            let next_off = tip - self.tip_at(&next);
+            let next = self.clamped(step(&q, &columns, off, damping * farthest * farthest));
+            let next_off = tip - self.tip(&next);
             if next_off.length() < off.length() {
                 (q, off) = (next, next_off);
                 damping = (damping * 0.1).max(f64::EPSILON);
@@ -41,20 +41,10 @@ impl PlanarArm {
         }
         None
     }
-
-    /// `q` with every joint beyond a stop put on it.
-    pub fn within_stops(&self, mut q: Vec<f64>) -> Vec<f64> {
-        for (angle, joint) in q.iter_mut().zip(self.joints()) {
-            if let JointLimits::Range { min, max } = joint.limits {
-                *angle = angle.clamp(min, max);
-            }
-        }
-        q
-    }
 }
 
 /// `q` moved by `Jᵀ (J Jᵀ + damping I)⁻¹ off`, with the columns of J given.
-fn step(q: &[f64], columns: &[Vector], off: Vector, damping: f64) -> Vec<f64> {
+fn step(q: &[f64], columns: &[Vector], off: Vector, damping: f64) -> Configuration {
     let (mut xx, mut xy, mut yy) = (damping, 0.0, damping);
     for column in columns {
         xx += column.x * column.x;

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use thiserror::Error;
 
-use crate::geometry::wrap_angle;
+use crate::geometry::{angle_difference, wrap_angle};
 
 /// Rounding that inverse kinematics may put between an angle and the limit it lies on (rad).
 const LIMIT_ROUNDING: f64 = 1e-12;
@@ -51,13 +51,37 @@ impl JointLimits {
     /// # Errors
     /// [`JointLimitsError`] for a reversed range or one that is not finite.
     pub fn range(min: f64, max: f64) -> Result<Self, JointLimitsError> {
-        if !(min.abs() <= WIDEST_RANGE && max.abs() <= WIDEST_RANGE) {
-            return Err(JointLimitsError::OutsideRange { min, max });
+        let limits = Self::Range { min, max };
+        limits.check().map(|()| limits)
+    }
+
+    /// What is wrong with it, if anything: every arm asks.
+    pub(super) fn check(&self) -> Result<(), JointLimitsError> {
+        match *self {
+            Self::Continuous => Ok(()),
+            Self::Range { min, max } if !(min.abs() <= WIDEST_RANGE && max.abs() <= WIDEST_RANGE) => {
+                Err(JointLimitsError::OutsideRange { min, max })
+            }
+            Self::Range { min, max } if min > max => Err(JointLimitsError::Reversed { min, max }),
+            Self::Range { .. } => Ok(()),
         }
-        if min > max {
-            return Err(JointLimitsError::Reversed { min, max });
+    }
+
+    /// How far the joint turns from `from` to `to` (rad): the short way round if it is continuous, in (-π, π], else the
+    /// plain difference.
+    pub fn difference(&self, from: f64, to: f64) -> f64 {
+        match self {
+            Self::Continuous => angle_difference(from, to),
+            Self::Range { .. } => to - from,
         }
-        Ok(Self::Range { min, max })
+    }
+
+    /// `to`, counted on by whole turns to where it is nearest to `from` if the joint is continuous (rad).
+    pub fn nearest_turn(&self, from: f64, to: f64) -> f64 {
+        match self {
+            Self::Continuous => from + angle_difference(from, to),
+            Self::Range { .. } => to,
+        }
     }
 
     /// Whether the joint may stand at `angle` (rad).
@@ -96,6 +120,30 @@ pub struct MotionLimits {
     pub jerk: Option<f64>,
 }
 
+/// A limit of a joint's motion that is none.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error("greatest {rate} is {value}, it must be finite and greater than 0")]
+pub struct MotionLimitError {
+    /// `velocity`, `acceleration` or `jerk`.
+    pub rate: &'static str,
+    /// As given (rad/s, rad/s², rad/s³).
+    pub value: f64,
+}
+
+impl MotionLimits {
+    /// What is wrong with them, if anything: every arm asks.
+    pub(super) fn check(&self) -> Result<(), MotionLimitError> {
+        let rates = [("velocity", self.velocity), ("acceleration", self.acceleration), ("jerk", self.jerk)];
+        let wrong = |(rate, limit): (&'static str, Option<f64>)| {
+            limit.filter(|value| !(value.is_finite() && *value > 0.0)).map(|value| (rate, value))
+        };
+        match rates.into_iter().find_map(wrong) {
+            Some((rate, value)) => Err(MotionLimitError { rate, value }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// One joint of an arm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
@@ -103,4 +151,12 @@ pub struct Joint {
     pub limits: JointLimits,
     /// How fast it may move.
     pub motion: MotionLimits,
+}
+
+impl Joint {
+    /// One that turns all the way round, with no limit on its motion stated.
+    pub const CONTINUOUS: Self = Self {
+        limits: JointLimits::Continuous,
+        motion: MotionLimits { velocity: None, acceleration: None, jerk: None },
+    };
 }

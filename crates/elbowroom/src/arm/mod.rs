@@ -2,17 +2,20 @@
 
 mod chain;
 mod configuration;
+mod error;
 mod inverse;
 mod inverse_near;
 mod joint;
-mod planar;
+mod measures;
 mod posture;
 mod two_link;
 
 pub use chain::Arm;
-pub use configuration::{Configuration, joint_distance};
+pub use configuration::{Configuration, joint_distance, lerp};
+pub use error::ArmError;
 pub use inverse::InverseError;
-pub use joint::{Joint, JointLimits, JointLimitsError, MotionLimits};
-pub use planar::{MOST_LINKS, PlanarArm};
+pub use joint::{Joint, JointLimits, JointLimitsError, MotionLimitError, MotionLimits};
+pub use measures::MOST_LINKS;
 pub use posture::Posture;
-pub use two_link::{ArmError, TwoLinkArm};
+pub use two_link::TwoLink;
+pub(crate) use two_link::lerp_pair;

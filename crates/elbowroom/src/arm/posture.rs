@@ -1,4 +1,3 @@
-use super::Configuration;
 use crate::geometry::wrap_angle;
 
 /// On which side of the ray from base to tip the elbow lies.
@@ -26,8 +25,8 @@ impl Posture {
     }
 
     /// The posture of `q`, or `None` where both meet: links in one line, stretched or folded.
-    pub fn of(q: &Configuration<2>) -> Option<Self> {
-        let bend = wrap_angle(q.0[1]);
+    pub fn of(q: &[f64; 2]) -> Option<Self> {
+        let bend = wrap_angle(q[1]);
         if bend == 0.0 || bend == std::f64::consts::PI {
             None
         } else if bend < 0.0 {

@@ -1,3 +1,4 @@
+use super::ObstacleMotion;
 use crate::geometry::{Circle, Polygon, Segment};
 
 /// The shape of an obstacle.
@@ -14,11 +15,18 @@ pub enum Shape {
 pub struct Obstacle {
     /// What people call it, if they do.
     pub name: Option<String>,
-    /// Where it is.
+    /// Where it is; where it moves, from where its motion counts.
     pub shape: Shape,
+    /// How it moves, if it does.
+    pub motion: Option<ObstacleMotion>,
 }
 
 impl Obstacle {
+    /// One without a name that stands still.
+    pub fn still(shape: Shape) -> Self {
+        Self { name: None, shape, motion: None }
+    }
+
     /// Distance from the obstacle to `segment` (m): 0 or less when they touch.
     pub fn distance_to_segment(&self, segment: Segment) -> f64 {
         match &self.shape {
@@ -35,4 +43,12 @@ impl Obstacle {
             Shape::Polygon(polygon) => polygon.signed_distance_to_segment(segment),
         }
     }
+}
+
+/// What messages call the obstacle of this number, from 0: its name, or its number from 1.
+pub(crate) fn in_words(obstacle: usize, name: Option<&str>) -> String {
+    name.map_or_else(
+        || format!("obstacle {}", obstacle + 1),
+        |name| format!("obstacle '{}'", name.escape_debug()),
+    )
 }

@@ -2,8 +2,9 @@ use std::collections::HashSet;
 
 use thiserror::Error;
 
-use super::{Place, Scene};
+use super::{Obstacle, Place, Shape, Task};
 use crate::arm::Arm;
+use crate::geometry::{Circle, CircleError};
 
 /// Most obstacles of a scene: a map numbers them in 16 bits.
 pub(super) const MOST_OBSTACLES: usize = 1 << 16;
@@ -44,6 +45,14 @@ pub enum SceneProblem {
         /// The name.
         name: String,
     },
+    /// A circle that is none.
+    #[error("obstacle {}: {error}", obstacle + 1)]
+    Circle {
+        /// Which, from 0.
+        obstacle: usize,
+        /// What is wrong with it.
+        error: CircleError,
+    },
     /// A start or goal with another number of angles than the arm has joints.
     #[error("task '{}': {found} joint angles, the arm has {links} joints", task.escape_debug())]
     Joints {
@@ -65,26 +74,33 @@ pub enum SceneProblem {
     },
 }
 
-pub(super) fn first<A: Arm>(scene: &Scene<A>) -> Option<SceneProblem> {
-    if scene.obstacles.len() > MOST_OBSTACLES {
-        return Some(SceneProblem::Obstacles { found: scene.obstacles.len() });
+pub(super) fn first(arm: &Arm, obstacles: &[Obstacle], tasks: &[Task]) -> Option<SceneProblem> {
+    if obstacles.len() > MOST_OBSTACLES {
+        return Some(SceneProblem::Obstacles { found: obstacles.len() });
     }
-    if scene.tasks.len() > MOST_TASKS {
-        return Some(SceneProblem::Tasks { found: scene.tasks.len() });
+    if tasks.len() > MOST_TASKS {
+        return Some(SceneProblem::Tasks { found: tasks.len() });
+    }
+    let circles = obstacles.iter().enumerate().filter_map(|(obstacle, part)| match &part.shape {
+        Shape::Circle(circle) => Some((obstacle, circle)),
+        Shape::Polygon(_) => None,
+    });
+    for (obstacle, circle) in circles {
+        if let Err(error) = Circle::new(circle.center, circle.radius) {
+            return Some(SceneProblem::Circle { obstacle, error });
+        }
     }
     let mut names = HashSet::new();
-    let mut named = scene.obstacles.iter().filter_map(|obstacle| obstacle.name.as_ref());
+    let mut named = obstacles.iter().filter_map(|obstacle| obstacle.name.as_ref());
     if let Some(name) = named.find(|name| !names.insert(name.as_str())) {
         return Some(SceneProblem::ObstacleName { name: name.clone() });
     }
     let mut names = HashSet::new();
-    if let Some(task) =
-        scene.tasks.iter().find(|task| task.name.is_empty() || !names.insert(task.name.as_str()))
-    {
+    if let Some(task) = tasks.iter().find(|task| task.name.is_empty() || !names.insert(task.name.as_str())) {
         return Some(SceneProblem::TaskName { name: task.name.clone() });
     }
-    let links = scene.arm.lengths().len();
-    scene.tasks.iter().find_map(|task| {
+    let links = arm.links();
+    tasks.iter().find_map(|task| {
         let [start, goal] = [&task.start, &task.goal];
         for place in [start, goal] {
             match place {

@@ -1,3 +1,4 @@
+use crate::arm::Configuration;
 use crate::geometry::Point;
 
 /// Where a task begins or ends.
@@ -6,7 +7,7 @@ pub enum Place {
     /// The tip stands here (m); which configuration does not matter.
     Tip(Point),
     /// The joints stand here, one position each, base first (rad).
-    Configuration(Vec<f64>),
+    Configuration(Configuration),
 }
 
 /// In which posture a task may be carried out.

@@ -2,10 +2,10 @@ use super::error::Problem;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
-use crate::arm::{ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits, PlanarArm};
+use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits};
 use crate::geometry::Point;
 
-pub(super) fn read(value: &Value<'_>, units: Units) -> Result<PlanarArm, Fault> {
+pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
     let map = value.map(&keys::ARM)?;
     let links_value = map.required("links")?;
     let links = links_value.list("a list of link lengths")?;
@@ -40,7 +40,7 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<PlanarArm, Fault> 
         Some(value) => value.word(&["true", "false"])? == "true",
         None => false,
     };
-    PlanarArm::new(base, lengths, half_width, joints, self_collision).map_err(|error| match error {
+    Arm::new(base, lengths, half_width, joints, self_collision).map_err(|error| match error {
         ArmError::Length { link, .. } => links[link - 1].out_of_range("at least 1e-6 m"),
         ArmError::AlwaysTouching { link, .. } => links[link - 1].fault(error.into()),
         _ => value.fault(error.into()),

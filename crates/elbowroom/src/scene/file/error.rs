@@ -6,7 +6,7 @@ use super::Location;
 use crate::arm::{ArmError, MOST_LINKS};
 use crate::geometry::{CircleError, PolygonError};
 use crate::grid::GridError;
-use crate::scene::{MoverError, SceneProblem};
+use crate::scene::{ObstacleMotionError, SceneProblem};
 
 /// Why a text is no scene: what is wrong, and where.
 #[derive(Debug, Clone, PartialEq)]
@@ -166,7 +166,7 @@ pub enum Problem {
     },
     /// How an obstacle moves.
     #[error(transparent)]
-    Mover(#[from] MoverError),
+    Motion(#[from] ObstacleMotionError),
     /// The measures of the arm.
     #[error(transparent)]
     Arm(#[from] ArmError),

@@ -7,7 +7,7 @@ mod arm;
 mod error;
 mod grid;
 mod keys;
-mod mover;
+mod motion;
 mod node;
 mod obstacles;
 mod tasks;
@@ -19,8 +19,7 @@ use std::collections::BTreeMap;
 
 pub use error::{Problem, SceneError};
 
-use super::{Mover, Scene};
-use crate::arm::{Arm, PlanarArm};
+use super::Scene;
 use units::Units;
 use value::{Fault, Value};
 
@@ -58,9 +57,7 @@ impl Locations {
 #[derive(Debug, Clone, PartialEq)]
 pub struct SceneFile {
     /// The scene.
-    pub scene: Scene<PlanarArm>,
-    /// Those of its obstacles that move.
-    pub movers: Vec<Mover>,
+    pub scene: Scene,
     /// Where its tasks are.
     pub locations: Locations,
 }
@@ -79,8 +76,7 @@ pub struct SceneFile {
 /// grid: {x: [-700, 700], y: [-700, 700], step: 10}
 /// ";
 /// let file = elbowroom::scene::parse(text, "cell.yaml")?;
-/// let scene = file.scene.two_link().expect("the arm has two links");
-/// assert_eq!(scene.arm.lengths(), [0.4, 0.25]);
+/// assert_eq!(file.scene.arm().lengths(), [0.4, 0.25]);
 /// # Ok::<(), elbowroom::scene::SceneError>(())
 /// ```
 pub fn parse(text: &str, file: &str) -> Result<SceneFile, SceneError> {
@@ -99,14 +95,14 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
     let units = Units::read(&map.required("units")?)?;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;
-    let (obstacles, movers) = match map.optional("obstacles") {
+    let obstacles = match map.optional("obstacles") {
         Some(value) => obstacles::read(&value, units)?,
         None => Default::default(),
     };
     let (tasks, ends) = match map.optional("tasks") {
-        Some(value) => tasks::read(&value, units, arm.lengths().len())?,
+        Some(value) => tasks::read(&value, units, arm.links())?,
         None => Default::default(),
     };
     let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;
-    Ok(SceneFile { scene, movers, locations: Locations { ends } })
+    Ok(SceneFile { scene, locations: Locations { ends } })
 }

@@ -2,32 +2,21 @@ use std::collections::HashSet;
 
 use super::error::Problem;
 use super::keys;
-use super::mover;
+use super::motion;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::geometry::{Circle, Point, Polygon, PolygonError};
 use crate::scene::problem::MOST_OBSTACLES;
-use crate::scene::{Mover, Obstacle, SceneProblem, Shape};
+use crate::scene::{Obstacle, SceneProblem, Shape};
 
-/// The obstacles, and those of them that move.
-pub(super) fn read(value: &Value<'_>, units: Units) -> Result<(Vec<Obstacle>, Vec<Mover>), Fault> {
+/// The obstacles, and how those move that do.
+pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Vec<Obstacle>, Fault> {
     let values = value.list("a list of obstacles")?;
     if values.len() > MOST_OBSTACLES {
         return Err(value.fault(SceneProblem::Obstacles { found: values.len() }.into()));
     }
     let mut names = HashSet::new();
-    let mut movers = Vec::new();
-    let obstacles = values
-        .iter()
-        .enumerate()
-        .map(|(index, value)| {
-            let map = value.map(&keys::OBSTACLE)?;
-            let read = obstacle(value, units, &mut names)?;
-            movers.extend(mover::read(index, &map, units)?);
-            Ok(read)
-        })
-        .collect::<Result<Vec<Obstacle>, Fault>>()?;
-    Ok((obstacles, movers))
+    values.iter().map(|value| obstacle(value, units, &mut names)).collect()
 }
 
 fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>) -> Result<Obstacle, Fault> {
@@ -48,7 +37,7 @@ fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>
         (Some(_), Some(_)) => return Err(value.fault(Problem::OneShape { found: "both" })),
         (None, None) => return Err(value.fault(Problem::OneShape { found: "neither" })),
     };
-    Ok(Obstacle { name, shape })
+    Ok(Obstacle { name, shape, motion: motion::read(&map, units)? })
 }
 
 fn read_circle(value: &Value<'_>, units: Units) -> Result<Circle, Fault> {

@@ -51,7 +51,7 @@ fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault>
             return Err(q.shape(allowed));
         }
         let angles = angles.iter().map(|angle| joint(angle, units)).collect::<Result<Vec<f64>, Fault>>()?;
-        return Ok(Place::Configuration(angles));
+        return Ok(Place::Configuration(angles.into()));
     }
     let [x, y] = value.pair(&format!("[x, y], or {{q: [{}]}}", names(joints)))?;
     Ok(Place::Tip(crate::geometry::Point::new(x.length(units)?, y.length(units)?)))

@@ -2,23 +2,22 @@ use thiserror::Error;
 
 use crate::geometry::Vector;
 
-/// The most way-points of one mover.
+/// The most way-points of one moving obstacle.
 pub const MOST_WAYPOINTS: usize = 10_000;
 
 /// Latest time and greatest speed and shift that are served (s, m/s, m): beyond them numbers lose the digits the
 /// checks rely on.
 const GREATEST: f64 = 1e6;
 
-/// An obstacle of a scene that moves, without turning.
+/// How an obstacle moves, without turning, and since when the arm knows of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mover {
-    obstacle: usize,
+pub struct ObstacleMotion {
     course: Course,
     sight: Sight,
     greatest_speed: f64,
 }
 
-/// Where a mover is, as a shift from where the scene has it (m).
+/// Where a moving obstacle is, as a shift from where the scene has it (m).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Course {
     /// Straight from way-point to way-point; still before the first and after the last.
@@ -56,7 +55,7 @@ pub struct Waypoint {
     pub shift: Vector,
 }
 
-/// Since when the arm knows of a mover and its course.
+/// Since when the arm knows of a moving obstacle and its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sight {
     /// From the beginning.
@@ -67,9 +66,9 @@ pub enum Sight {
     Within(f64),
 }
 
-/// Why there is no such mover.
+/// Why no obstacle moves so.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum MoverError {
+pub enum ObstacleMotionError {
     /// No way-point, or more than are served.
     #[error("{found} way-points, 1 to {MOST_WAYPOINTS} are allowed")]
     Waypoints {
@@ -106,18 +105,17 @@ pub enum MoverError {
     },
 }
 
-impl Mover {
-    /// The `obstacle` of a scene, from 0, on its `course`; `greatest_speed` (m/s) is that of the course where none is
-    /// declared, and has to be for a course that is unknown.
+impl ObstacleMotion {
+    /// Motion on `course`; `greatest_speed` (m/s) is that of the course where none is declared, and has to be for a course
+    /// that is unknown.
     ///
     /// # Errors
-    /// [`MoverError`] names the first thing that is wrong.
+    /// [`ObstacleMotionError`] names the first thing that is wrong.
     pub fn new(
-        obstacle: usize,
         course: Course,
         sight: Sight,
         greatest_speed: Option<f64>,
-    ) -> Result<Self, MoverError> {
+    ) -> Result<Self, ObstacleMotionError> {
         course.check()?;
         match sight {
             Sight::Always => {}
@@ -128,23 +126,18 @@ impl Mover {
         let declared = greatest_speed.unwrap_or(found);
         number("greatest speed", declared, true)?;
         if found > declared * (1.0 + 1e-9) {
-            return Err(MoverError::TooFast { found, declared });
+            return Err(ObstacleMotionError::TooFast { found, declared });
         }
-        Ok(Self { obstacle, course, sight, greatest_speed: declared })
+        Ok(Self { course, sight, greatest_speed: declared })
     }
 
-    /// The same obstacle with the same greatest speed, but its course known otherwise.
+    /// With the same greatest speed, but the course known otherwise.
     #[must_use]
     pub fn on(&self, course: Course) -> Self {
         Self { course, ..self.clone() }
     }
 
-    /// Its place among the scene's obstacles, from 0.
-    pub fn obstacle(&self) -> usize {
-        self.obstacle
-    }
-
-    /// Where it is, when.
+    /// Where the obstacle is at which time.
     pub fn course(&self) -> &Course {
         &self.course
     }
@@ -182,6 +175,11 @@ impl Course {
         }
     }
 
+    /// Whether nobody knows where the obstacle will be.
+    pub fn is_unknown(&self) -> bool {
+        matches!(self, Self::Unknown { .. } | Self::Chase { .. })
+    }
+
     /// The fastest that the course is (m/s); 0 where it is unknown.
     pub fn greatest_speed(&self) -> f64 {
         match self {
@@ -194,12 +192,12 @@ impl Course {
         }
     }
 
-    fn check(&self) -> Result<(), MoverError> {
+    fn check(&self) -> Result<(), ObstacleMotionError> {
         let vector = |what, v: Vector| number(what, v.x, false).and_then(|()| number(what, v.y, false));
         match self {
             Self::Waypoints(waypoints) => {
                 if !(1..=MOST_WAYPOINTS).contains(&waypoints.len()) {
-                    return Err(MoverError::Waypoints { found: waypoints.len() });
+                    return Err(ObstacleMotionError::Waypoints { found: waypoints.len() });
                 }
                 for waypoint in waypoints {
                     number("time of a way-point", waypoint.time, false)?;
@@ -208,7 +206,7 @@ impl Course {
                 let late = (1..waypoints.len()).find(|&i| waypoints[i].time <= waypoints[i - 1].time);
                 late.map_or(Ok(()), |index| {
                     let (time, before) = (waypoints[index].time, waypoints[index - 1].time);
-                    Err(MoverError::Times { index, time, before })
+                    Err(ObstacleMotionError::Times { index, time, before })
                 })
             }
             Self::Drift { start, velocity } => {
@@ -221,11 +219,11 @@ impl Course {
     }
 }
 
-fn number(what: &'static str, value: f64, positive: bool) -> Result<(), MoverError> {
+fn number(what: &'static str, value: f64, positive: bool) -> Result<(), ObstacleMotionError> {
     let least = if positive { 0.0 } else { -GREATEST };
     if (least..=GREATEST).contains(&value) {
         Ok(())
     } else {
-        Err(MoverError::Number { what, value, positive })
+        Err(ObstacleMotionError::Number { what, value, positive })
     }
 }

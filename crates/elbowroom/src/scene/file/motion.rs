@@ -3,10 +3,10 @@ use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
 use crate::geometry::Vector;
-use crate::scene::{Course, Mover, MoverError, Sight, Waypoint};
+use crate::scene::{Course, ObstacleMotion, ObstacleMotionError, Sight, Waypoint};
 
 /// How the obstacle with these keys moves, if it does.
-pub(super) fn read(obstacle: usize, map: &Map<'_>, units: Units) -> Result<Option<Mover>, Fault> {
+pub(super) fn read(map: &Map<'_>, units: Units) -> Result<Option<ObstacleMotion>, Fault> {
     let speed = map.optional("greatest_speed");
     let Some(motion) = map.optional("motion") else {
         let stray = ["greatest_speed", "seen", "seen_from", "sensing_radius"];
@@ -20,9 +20,9 @@ pub(super) fn read(obstacle: usize, map: &Map<'_>, units: Units) -> Result<Optio
     if matches!(course, Course::Chase { .. }) && declared.is_none() {
         return Err(motion.fault(Problem::MissingKey { key: "greatest_speed, beside chases" }));
     }
-    Mover::new(obstacle, course, sight(map, units)?, declared).map(Some).map_err(|error| {
+    ObstacleMotion::new(course, sight(map, units)?, declared).map(Some).map_err(|error| {
         match (error, speed) {
-            (MoverError::TooFast { .. }, Some(speed)) => speed.fault(error.into()),
+            (ObstacleMotionError::TooFast { .. }, Some(speed)) => speed.fault(error.into()),
             _ => motion.fault(error.into()),
         }
     })
