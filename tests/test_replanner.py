@@ -147,6 +147,17 @@ def test_no_replanner_for_what_it_cannot_do(scene: er.Scene) -> None:
         world.advance(0.5, q=(0.0, 1.0))
 
 
+def test_planners_leave_what_moves_to_it(scene: er.Scene) -> None:
+    for planning, words in (
+        (lambda: er.plan(scene), "the command follow and Replanner serve those that move"),
+        (lambda: er.plan_as_in_paper(scene), "the command follow and Replanner serve those that move"),
+        (lambda: er.free_space(scene), "takes obstacles to stand still; obstacle 'shuttle' moves"),
+    ):
+        with pytest.raises(er.BadSetting, match=words) as caught:
+            planning()
+        assert caught.value.setting == "scene"
+
+
 def test_two_threads_wait_for_each_other(scene: er.Scene) -> None:
     replanner = er.Replanner(scene)
     updates: list[er.Update] = []

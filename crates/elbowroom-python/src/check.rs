@@ -1,7 +1,6 @@
-use elbowroom::arm::Arm;
 use elbowroom::planners::Monitor;
 use elbowroom::trajectory::{Samples, interpolate};
-use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_among};
+use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_until};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -47,7 +46,7 @@ pub(crate) fn verify<'py>(
     margin: f64,
     timeout: Option<f64>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let (joints, moved) = (scene.scene.arm.lengths().len(), motion.0.joints());
+    let (joints, moved) = (scene.scene.arm().links(), motion.0.joints());
     if joints != moved {
         let message = format!("it moves {moved} joints; the arm of the scene has {joints}");
         return Err(errors::trajectory(py, &message));
@@ -66,7 +65,7 @@ pub(crate) fn verify<'py>(
     };
     let settings = VerifySettings { margin, continuous, ..VerifySettings::default() };
     let (found, _) = watch::run(py, timeout, None, |watch| {
-        verify_among(&scene.scene, &scene.movers, &motion.0, &settings, &|| watch.keep_going())
+        verify_until(&scene.scene, &motion.0, &settings, &|| watch.keep_going())
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));

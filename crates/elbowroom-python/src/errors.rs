@@ -1,8 +1,9 @@
 //! From the core's typed errors to the classes of `elbowroom.errors`.
 
 use elbowroom::free_space::{NotFree, Reason};
+use elbowroom::online::ReplanError;
 use elbowroom::planners::{PaperError, PlanError};
-use elbowroom::scene::{Place, SceneError};
+use elbowroom::scene::{Place, SceneError, TwoLinkError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
@@ -57,7 +58,7 @@ pub(crate) fn not_free(py: Python<'_>, task: &str, end: &str, refused: &NotFree)
         fields.set_item("end", end)?;
         match &refused.place {
             Place::Tip(tip) => fields.set_item("tip", (tip.x, tip.y))?,
-            Place::Configuration(q) => fields.set_item("configuration", PyTuple::new(py, q)?)?,
+            Place::Configuration(q) => fields.set_item("configuration", PyTuple::new(py, q.iter())?)?,
         }
         let reasons = PyList::empty(py);
         for (posture, reason) in &refused.reasons {
@@ -94,6 +95,11 @@ fn reason_fields<'py>(
             fields.set_item("name", name)?;
             fields.set_item("depth", depth)?;
         }
+        Reason::OtherArm { found, joints } => {
+            fields.set_item("reason", "other_arm")?;
+            fields.set_item("found", found)?;
+            fields.set_item("joints", joints)?;
+        }
         Reason::SelfCollision { link, other, depth } => {
             fields.set_item("reason", "self_collision")?;
             fields.set_item("link", link)?;
@@ -123,10 +129,25 @@ pub(crate) fn unknown_task(py: Python<'_>, name: &str, known: Vec<String>) -> Py
     })
 }
 
+/// The scene is none of those that `what` is for.
+pub(crate) fn two_link(py: Python<'_>, what: &str, error: &TwoLinkError) -> PyErr {
+    match error {
+        TwoLinkError::Links { found } => {
+            let message = format!("{what} needs an arm of 2 links; the arm of this scene has {found}");
+            setting(py, "arm", &message)
+        }
+        TwoLinkError::Moving { .. } => setting(py, "scene", &format!("{what}: {error}")),
+    }
+}
+
 /// Why the paper's system has no plan.
 pub(crate) fn paper(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PaperError) -> PyErr {
     let message = error.to_string();
     match error {
+        PaperError::Moving { .. } => setting(py, "scene", &message),
+        PaperError::OtherArm { links } => {
+            two_link(py, "the paper's system", &TwoLinkError::Links { found: *links })
+        }
         PaperError::Swarm(_) => setting(py, "swarm", &message),
         PaperError::Duration { .. } => setting(py, "duration", &message),
         PaperError::Start(refused) => not_free(py, task, "start", refused),
@@ -170,6 +191,7 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
             fields.set_item("goals", &proof.goals)
         }),
         PlanError::Gap { .. } => setting(py, "gap", &message),
+        PlanError::Moving { .. } => setting(py, "scene", &message),
         PlanError::OtherArm { .. } => setting(py, "planner", &message),
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
         PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => {
@@ -177,6 +199,16 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         }
         PlanError::Stopped => timed_out(py, timeout),
         PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
+    }
+}
+
+/// Why there is no replanner for `task`.
+pub(crate) fn replan(py: Python<'_>, what: &str, task: &str, error: &ReplanError) -> PyErr {
+    match error {
+        ReplanError::Arm(error) => two_link(py, what, error),
+        ReplanError::Goal(refused) => not_free(py, task, "goal", refused),
+        ReplanError::Routes(refused) => plan(py, task, None, refused),
+        other => internal(py, &other.to_string()),
     }
 }
 

@@ -73,5 +73,5 @@ pub(crate) fn free_space(py: Python<'_>, scene: &Scene, timeout: Option<f64>) ->
         Some((space, cases))
     })?;
     let (space, cases) = found.ok_or_else(|| errors::timed_out(py, timeout))?;
-    Ok(FreeSpace { space, cases, shape: (two_link.grid.rows(), two_link.grid.columns()) })
+    Ok(FreeSpace { space, cases, shape: (two_link.grid().rows(), two_link.grid().columns()) })
 }

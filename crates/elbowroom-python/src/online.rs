@@ -2,11 +2,11 @@
 
 use std::sync::Mutex;
 
-use elbowroom::arm::{Configuration, Posture};
+use elbowroom::arm::Posture;
 use elbowroom::free_space::configurations;
-use elbowroom::online::{self, Decision, ReplanError};
+use elbowroom::online::{self, Decision, KnownMotion};
 use elbowroom::planners::Monitor;
-use elbowroom::scene::{self, Course, Mover, Place, Task, TaskPosture};
+use elbowroom::scene::{self, Course, ObstacleMotion, Place, Task, TaskPosture};
 use elbowroom::trajectory::State;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
@@ -26,7 +26,7 @@ const WHAT: &str = "planning while the arm moves";
 #[pyclass(frozen, module = "elbowroom._core")]
 pub(crate) struct Replanner {
     replanner: Mutex<online::Replanner>,
-    start: Configuration<2>,
+    start: [f64; 2],
 }
 
 /// The decision's name, the motion that now runs, whether it ends at a goal, and the verifier's verdict on what is left of it.
@@ -50,29 +50,28 @@ impl Replanner {
         q: Option<PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Self> {
         let asked = scene.task(py, task)?;
-        let flat = scene.two_link_moving(py, WHAT)?;
+        scene.check_links(py, WHAT)?;
+        let scene = &scene.scene;
         let start = match q {
-            Some(q) => Place::Configuration(pair(py, "q", &q)?.to_vec()),
+            Some(q) => Place::Configuration(pair(py, "q", &q)?.into()),
             None => asked.start.clone(),
         };
-        let mut now = flat.clone();
-        now.obstacles = online::World::new(flat.clone(), scene.movers.clone()).obstacles();
-        let starts = py.detach(|| configurations(&now, &start));
+        let now = scene.with_obstacles(online::World::new(scene.clone()).obstacles());
+        let now = now.map_err(|error| errors::setting(py, "scene", &error.to_string()))?;
+        let now = now.two_link().map_err(|error| errors::two_link(py, WHAT, &error))?;
+        let starts = py.detach(|| configurations(now, &start));
         let starts = starts.map_err(|refused| errors::not_free(py, task, "start", &refused))?;
         let Some(&start) = starts.first() else { return Err(errors::internal(py, "no start")) };
-        let goal = goal(py, flat, &scene.movers, asked)?;
-        let made = py.detach(|| online::Replanner::new(flat.clone(), &scene.movers, start, &goal, seed));
-        match made {
-            Ok(replanner) => Ok(Self { replanner: Mutex::new(replanner), start }),
-            Err(ReplanError::Goal(refused)) => Err(errors::not_free(py, task, "goal", &refused)),
-            Err(ReplanError::Routes(refused)) => Err(errors::plan(py, task, None, &refused)),
-        }
+        let goal = goal(py, scene, asked)?;
+        let made = py.detach(|| online::Replanner::new(scene.clone(), start, &goal, seed));
+        let replanner = made.map_err(|error| errors::replan(py, WHAT, task, &error))?;
+        Ok(Self { replanner: Mutex::new(replanner), start })
     }
 
     /// Where the arm stands at the beginning, shape ``(2,)`` (rad).
     #[getter]
     fn start<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        self.start.0.to_vec().into_pyarray(py)
+        self.start.to_vec().into_pyarray(py)
     }
 
     /// The motion that runs; before its start and after its end the arm stands.
@@ -105,22 +104,24 @@ impl Replanner {
         a: PyReadonlyArray1<'py, f64>,
         deadline: Option<f64>,
     ) -> PyResult<Update<'py>> {
-        let movers = known
+        let known = known
             .into_iter()
-            .map(|(index, part)| mover(py, scene, index, part))
+            .map(|(index, part)| known_motion(py, &scene.scene, index, part))
             .collect::<PyResult<Vec<_>>>()?;
         let [q, v, a] = [pair(py, "q", &q)?, pair(py, "v", &v)?, pair(py, "a", &a)?];
         let state = State { velocity: v.to_vec(), acceleration: a.to_vec(), ..State::rest(&q) };
         let (found, _) = watch::run(py, deadline, None, |watch| {
             let mut replanner = self.replanner.lock().ok()?;
-            let update = replanner.update(&movers, now, &state, &|| watch.keep_going());
+            let update = replanner.update(&known, now, &state, &|| watch.keep_going());
             Some((update, replanner.motion().clone()))
         })?;
         let Some((update, motion)) = found else { return Err(broken(py)) };
+        let update = update.map_err(|error| errors::setting(py, "known", &error.to_string()))?;
         let decision = match update.decision {
             Decision::Keep => "keep",
             Decision::New(_) => "new",
             Decision::Stop(_) => "stop",
+            _ => return Err(errors::internal(py, "a decision without a name")),
         };
         let verdict = verdict::as_dict(py, &scene.scene, &update.verdict)?;
         Ok((decision, Motion(motion), update.reaches_goal, verdict))
@@ -146,8 +147,8 @@ impl World {
     ///     BadSetting: The arm has more than two links.
     #[new]
     fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
-        let flat = scene.two_link_moving(py, "a world in time")?;
-        Ok(Self(online::World::new(flat.clone(), scene.movers.clone())))
+        scene.check_links(py, "a world in time")?;
+        Ok(Self(online::World::new(scene.scene.clone())))
     }
 
     /// What time it is (s).
@@ -159,8 +160,7 @@ impl World {
     /// Let time go on to ``now`` (s) while the arm is at ``q`` (rad).
     #[pyo3(signature = (now, *, q))]
     fn advance(&mut self, py: Python<'_>, now: f64, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
-        let q = Configuration(pair(py, "q", &q)?);
-        self.0.advance(now, &q);
+        self.0.advance(now, &pair(py, "q", &q)?);
         Ok(())
     }
 
@@ -180,25 +180,24 @@ impl World {
         py: Python<'py>,
         q: PyReadonlyArray1<'_, f64>,
     ) -> PyResult<Vec<(usize, Option<Bound<'py, PyDict>>)>> {
-        let q = Configuration(pair(py, "q", &q)?);
-        let seen = self.0.seen_from(&q);
-        seen.iter().map(|mover| Ok((mover.obstacle(), known_parts(py, mover)?))).collect()
+        let seen = self.0.seen_from(&pair(py, "q", &q)?);
+        seen.iter().map(|known| Ok((known.obstacle, known_parts(py, &known.motion)?))).collect()
     }
 }
 
-/// What is known of a mover, with the names of the dataclasses' fields.
-fn known_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Option<Bound<'py, PyDict>>> {
-    match mover.course() {
+/// What is known of an obstacle's motion, with the names of the dataclasses' fields.
+fn known_parts<'py>(py: Python<'py>, motion: &ObstacleMotion) -> PyResult<Option<Bound<'py, PyDict>>> {
+    match motion.course() {
         Course::Absent => Ok(None),
         Course::Unknown { seen, shift } => {
             let part = PyDict::new(py);
             part.set_item("time", seen)?;
             part.set_item("shift", (shift.x, shift.y))?;
-            part.set_item("greatest_speed", mover.greatest_speed())?;
+            part.set_item("greatest_speed", motion.greatest_speed())?;
             Ok(Some(part))
         }
         _ => {
-            let part = motion_parts(py, mover)?;
+            let part = motion_parts(py, motion)?;
             // The arm knows of it now, however that came about.
             for sight in ["seen_from", "sensing_radius"] {
                 if part.contains(sight)? {
@@ -210,21 +209,31 @@ fn known_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Option<Bound<'py
     }
 }
 
-/// The mover of the scene that is obstacle `index`, as it is known.
-fn mover(py: Python<'_>, scene: &Scene, index: usize, part: Option<KnownPart>) -> PyResult<Mover> {
-    let Some(declared) = scene.movers.iter().find(|mover| mover.obstacle() == index) else {
-        let list: Vec<String> = scene.movers.iter().map(|mover| mover.obstacle().to_string()).collect();
+/// How obstacle `index` of the scene, which has to be one that moves, is known to move.
+fn known_motion(
+    py: Python<'_>,
+    scene: &scene::Scene,
+    index: usize,
+    part: Option<KnownPart>,
+) -> PyResult<KnownMotion> {
+    let obstacles = scene.obstacles();
+    let Some(declared) = obstacles.get(index).and_then(|obstacle| obstacle.motion.as_ref()) else {
+        let moving = obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.motion.is_some());
+        let list: Vec<String> = moving.map(|(index, _)| index.to_string()).collect();
         let message = format!(
             "known: obstacle {index} does not move in this scene; those that do: {}",
             if list.is_empty() { "none".to_owned() } else { list.join(", ") }
         );
         return Err(errors::setting(py, "known", &message));
     };
-    part.map_or_else(|| Ok(declared.on(Course::Absent)), |part| part.build(py, index, declared))
+    match part {
+        Some(part) => part.build(py, index, declared),
+        None => Ok(KnownMotion { obstacle: index, motion: declared.on(Course::Absent) }),
+    }
 }
 
 /// The goal of `task`, in the posture it asks for.
-fn goal(py: Python<'_>, scene: &scene::Scene, movers: &[Mover], task: &Task) -> PyResult<Place> {
+fn goal(py: Python<'_>, scene: &scene::Scene, task: &Task) -> PyResult<Place> {
     let wanted = match task.posture {
         TaskPosture::Any => return Ok(task.goal.clone()),
         TaskPosture::Up => Posture::ElbowUp,
@@ -235,20 +244,14 @@ fn goal(py: Python<'_>, scene: &scene::Scene, movers: &[Mover], task: &Task) -> 
             return Err(errors::setting(py, "posture", message));
         }
     };
-    let mut still = scene.clone();
-    let mut index = 0;
-    still.obstacles.retain(|_| {
-        index += 1;
-        movers.iter().all(|mover| mover.obstacle() + 1 != index)
-    });
-    let goals = py.detach(|| configurations(&still, &task.goal));
-    let goals = goals.map_err(|refused| errors::not_free(py, &task.name, "goal", &refused))?;
-    let fits = |q: &Configuration<2>| Posture::of(q).is_none_or(|posture| posture == wanted);
+    let goals = py.detach(|| online::goal_configurations(scene, &task.goal));
+    let goals = goals.map_err(|error| errors::replan(py, WHAT, &task.name, &error))?;
+    let fits = |q: &[f64; 2]| Posture::of(q).is_none_or(|posture| posture == wanted);
     let found = goals.into_iter().find(fits).ok_or_else(|| {
         let message = format!("the goal cannot be reached {}", wanted.name());
         errors::setting(py, "posture", &message)
     })?;
-    Ok(Place::Configuration(found.0.to_vec()))
+    Ok(Place::Configuration(found.into()))
 }
 
 fn pair(py: Python<'_>, name: &str, values: &PyReadonlyArray1<'_, f64>) -> PyResult<[f64; 2]> {

@@ -121,8 +121,7 @@ pub(crate) fn plan_as_in_paper(
         Method::Dstar
     };
     let settings = PaperSettings { method, seed, vias, duration };
-    let two_link = scene.two_link(py, "the paper's system")?;
-    let work = |watch: &watch::Watch| planners::plan_as_in_paper(two_link, asked, &settings, watch);
+    let work = |watch: &watch::Watch| planners::plan_as_in_paper(&scene.scene, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::paper(py, task, timeout, &error))?;
     Ok(PaperPlan { plan, timings })
@@ -133,19 +132,13 @@ pub(crate) fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<
 }
 
 /// An array of shape (n, joints).
-pub(crate) fn configurations<'py, Q: AsRef<[f64]>>(
-    py: Python<'py>,
-    path: &JointPath<Q>,
-) -> Bound<'py, PyArray2<f64>> {
-    let joints = path.0.first().map_or(0, |q| q.as_ref().len());
-    Array2::from_shape_fn((path.0.len(), joints), |(i, j)| path.0[i].as_ref()[j]).into_pyarray(py)
+pub(crate) fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
+    let joints = path.0.first().map_or(0, |q| q.len());
+    Array2::from_shape_fn((path.0.len(), joints), |(i, j)| path.0[i][j]).into_pyarray(py)
 }
 
 /// The posture of each configuration of two joints.
-pub(crate) fn postures<Q: AsRef<[f64]>>(path: &JointPath<Q>) -> Vec<Option<&'static str>> {
-    let posture = |q: &Q| {
-        let q = <[f64; 2]>::try_from(q.as_ref()).ok()?;
-        Posture::of(&Configuration(q)).map(Posture::name)
-    };
-    path.0.iter().map(posture).collect()
+pub(crate) fn postures(path: &JointPath) -> Vec<Option<&'static str>> {
+    let pair = |q: &Configuration| <[f64; 2]>::try_from(&**q).ok();
+    path.0.iter().map(|q| Posture::of(&pair(q)?).map(Posture::name)).collect()
 }

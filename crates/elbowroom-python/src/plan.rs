@@ -197,9 +197,8 @@ pub(crate) fn plan(
         })?;
     let planner = by_name(py, planner, options)?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let settings = PlanSettings { planner, objective, pace, seed, gap };
-    let still = scene.still(py, "a planner")?;
-    let work = |watch: &watch::Watch| planners::plan(still, asked, &settings, watch);
+    let settings = PlanSettings { objective, pace, seed, gap };
+    let work = |watch: &watch::Watch| planners::plan(&scene.scene, asked, &planner, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
     Ok(Plan { plan, timings })

@@ -1,7 +1,9 @@
-use elbowroom::arm::{Arm, JointLimits, PlanarArm};
+use elbowroom::arm::{Arm, JointLimits};
 use elbowroom::geometry::Point;
-use elbowroom::path::{clearances, self_clearance};
-use elbowroom::scene::{self, Course, Mover, Place, Shape, Sight, Task, TaskPosture};
+use elbowroom::path::{link_clearances, self_clearance};
+use elbowroom::scene::{
+    self, Course, ObstacleMotion, Place, Shape, Sight, Task, TaskPosture, TwoLinkError, TwoLinkScene,
+};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -13,44 +15,26 @@ use crate::scene_parts::{ArmPart, GridPart, ObstaclePart, TaskPart};
 /// An arm among obstacles, checked, as the core holds it.
 #[pyclass(frozen, module = "elbowroom._core")]
 pub(crate) struct Scene {
-    pub(crate) scene: scene::Scene<PlanarArm>,
-    /// The same for what needs an arm of two links, if it has one.
-    two_link: Option<scene::Scene>,
-    /// Those of its obstacles that move.
-    pub(crate) movers: Vec<Mover>,
+    pub(crate) scene: scene::Scene,
 }
 
 impl Scene {
     pub(crate) fn task(&self, py: Python<'_>, name: &str) -> PyResult<&Task> {
-        let known = || self.scene.tasks.iter().map(|task| task.name.clone()).collect();
+        let known = || self.scene.tasks().iter().map(|task| task.name.clone()).collect();
         self.scene.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
     }
 
-    /// The scene for `what` takes all obstacles to stand still.
-    pub(crate) fn still(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene<PlanarArm>> {
-        let Some(mover) = self.movers.first() else { return Ok(&self.scene) };
-        let name = self.scene.obstacles[mover.obstacle()].name.as_deref();
-        let obstacle = name.map_or_else(|| mover.obstacle().to_string(), |name| format!("'{name}'"));
-        let message =
-            format!("{what} takes obstacles to stand still; obstacle {obstacle} of this scene moves");
-        Err(errors::setting(py, "scene", &message))
+    /// The scene with the closed forms of its arm, for `what` cannot do with another, or with obstacles that move.
+    pub(crate) fn two_link(&self, py: Python<'_>, what: &str) -> PyResult<TwoLinkScene<'_>> {
+        self.scene.two_link().map_err(|error| errors::two_link(py, what, &error))
     }
 
-    /// The scene with its arm of two links, for `what` cannot do with another.
-    pub(crate) fn two_link(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
-        self.still(py, what)?;
-        self.two_link_moving(py, what)
-    }
-
-    /// The same for `what` also serves obstacles that move.
-    pub(crate) fn two_link_moving(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene> {
-        self.two_link.as_ref().ok_or_else(|| {
-            let message = format!(
-                "{what} needs an arm of 2 links; the arm of this scene has {}",
-                self.scene.arm.lengths().len()
-            );
-            errors::setting(py, "arm", &message)
-        })
+    /// Refuses an arm of other than two links, for `what` serves obstacles that move too.
+    pub(crate) fn check_links(&self, py: Python<'_>, what: &str) -> PyResult<()> {
+        match self.scene.arm().links() {
+            2 => Ok(()),
+            found => Err(errors::two_link(py, what, &TwoLinkError::Links { found })),
+        }
     }
 }
 
@@ -69,17 +53,15 @@ impl Scene {
         obstacles: Vec<ObstaclePart>,
         tasks: Vec<(String, TaskPart)>,
     ) -> PyResult<Self> {
-        let built = obstacles
+        let obstacles = obstacles
             .into_iter()
             .enumerate()
             .map(|(index, part)| part.build(py, index))
             .collect::<PyResult<Vec<_>>>()?;
-        let (obstacles, movers): (Vec<_>, Vec<_>) = built.into_iter().unzip();
-        let movers = movers.into_iter().flatten().collect();
         let tasks =
             tasks.into_iter().map(|(name, part)| part.build(py, name)).collect::<PyResult<Vec<_>>>()?;
         scene::Scene::new(arm.build(py)?, grid.build(py)?, obstacles, tasks)
-            .map(|scene| Self { two_link: scene.two_link(), movers, scene })
+            .map(|scene| Self { scene })
             .map_err(|problem| errors::part(py, "scene", &problem.to_string()))
     }
 
@@ -92,8 +74,8 @@ impl Scene {
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let configurations = self.configurations(py, &q)?;
         let found: Vec<f64> =
-            py.detach(|| configurations.iter().flat_map(|q| clearances(&self.scene, q)).collect());
-        let shape = (configurations.len(), self.scene.arm.lengths().len());
+            py.detach(|| configurations.iter().flat_map(|q| link_clearances(&self.scene, q)).collect());
+        let shape = (configurations.len(), self.scene.arm().links());
         Ok(Array2::from_shape_fn(shape, |(i, j)| found[i * shape.1 + j]).into_pyarray(py))
     }
 
@@ -118,9 +100,9 @@ impl Scene {
         q: PyReadonlyArray2<'py, f64>,
     ) -> PyResult<Bound<'py, PyArray3<f64>>> {
         let configurations = self.configurations(py, &q)?;
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let ends: Vec<Point> = configurations.iter().flat_map(|q| arm.link_ends(q)).collect();
-        let shape = (configurations.len(), arm.lengths().len(), 2);
+        let shape = (configurations.len(), arm.links(), 2);
         let at = |(i, link, axis): (usize, usize, usize)| {
             let end = ends[i * shape.1 + link];
             if axis == 0 { end.x } else { end.y }
@@ -131,7 +113,7 @@ impl Scene {
 
 impl Scene {
     fn configurations(&self, py: Python<'_>, q: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Vec<f64>>> {
-        let joints = self.scene.arm.lengths().len();
+        let joints = self.scene.arm().links();
         if q.as_array().ncols() != joints {
             let message = format!("configurations have {joints} columns, one per joint");
             return Err(errors::setting(py, "q", &message));
@@ -167,18 +149,17 @@ impl SceneFile {
     /// The scene as plain data, in metres and radians, with the names of the dataclasses' fields.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = &self.0.scene;
-        let motion_of = |index: usize| self.0.movers.iter().find(|mover| mover.obstacle() == index);
         let parts = PyDict::new(py);
-        parts.set_item("arm", arm_parts(py, &scene.arm)?)?;
+        parts.set_item("arm", arm_parts(py, scene.arm())?)?;
         let grid = PyDict::new(py);
-        let last = |first: f64, count: usize| first + (count - 1) as f64 * scene.grid.step();
-        let origin = scene.grid.origin();
-        grid.set_item("x", (origin.x, last(origin.x, scene.grid.columns())))?;
-        grid.set_item("y", (origin.y, last(origin.y, scene.grid.rows())))?;
-        grid.set_item("step", scene.grid.step())?;
+        let last = |first: f64, count: usize| first + (count - 1) as f64 * scene.grid().step();
+        let origin = scene.grid().origin();
+        grid.set_item("x", (origin.x, last(origin.x, scene.grid().columns())))?;
+        grid.set_item("y", (origin.y, last(origin.y, scene.grid().rows())))?;
+        grid.set_item("step", scene.grid().step())?;
         parts.set_item("grid", grid)?;
         let obstacles = PyList::empty(py);
-        for (index, obstacle) in scene.obstacles.iter().enumerate() {
+        for obstacle in scene.obstacles() {
             let part = PyDict::new(py);
             match &obstacle.shape {
                 Shape::Circle(circle) => {
@@ -191,14 +172,14 @@ impl SceneFile {
                 }
             }
             part.set_item("name", &obstacle.name)?;
-            if let Some(mover) = motion_of(index) {
-                part.set_item("motion", motion_parts(py, mover)?)?;
+            if let Some(motion) = &obstacle.motion {
+                part.set_item("motion", motion_parts(py, motion)?)?;
             }
             obstacles.append(part)?;
         }
         parts.set_item("obstacles", obstacles)?;
         let tasks = PyDict::new(py);
-        for task in &scene.tasks {
+        for task in scene.tasks() {
             let part = PyDict::new(py);
             set_place(&part, "start", &task.start)?;
             set_place(&part, "goal", &task.goal)?;
@@ -216,7 +197,7 @@ impl SceneFile {
     }
 }
 
-fn arm_parts<'py>(py: Python<'py>, arm: &PlanarArm) -> PyResult<Bound<'py, PyDict>> {
+fn arm_parts<'py>(py: Python<'py>, arm: &Arm) -> PyResult<Bound<'py, PyDict>> {
     let parts = PyDict::new(py);
     parts.set_item("links", arm.lengths())?;
     parts.set_item("half_width", arm.half_width())?;
@@ -242,9 +223,9 @@ fn arm_parts<'py>(py: Python<'py>, arm: &PlanarArm) -> PyResult<Bound<'py, PyDic
 }
 
 /// How an obstacle moves, with the names of the dataclass's fields.
-pub(crate) fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn motion_parts<'py>(py: Python<'py>, motion: &ObstacleMotion) -> PyResult<Bound<'py, PyDict>> {
     let part = PyDict::new(py);
-    match mover.course() {
+    match motion.course() {
         Course::Waypoints(points) => {
             let points: Vec<_> = points.iter().map(|p| (p.time, (p.shift.x, p.shift.y))).collect();
             part.set_item("waypoints", points)?;
@@ -260,8 +241,8 @@ pub(crate) fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Boun
         // No file says so.
         Course::Absent | Course::Unknown { .. } => {}
     }
-    part.set_item("greatest_speed", mover.greatest_speed())?;
-    match mover.sight() {
+    part.set_item("greatest_speed", motion.greatest_speed())?;
+    match motion.sight() {
         Sight::Always => {}
         Sight::From(time) => part.set_item("seen_from", time)?,
         Sight::Within(radius) => part.set_item("sensing_radius", radius)?,
@@ -273,7 +254,7 @@ pub(crate) fn motion_parts<'py>(py: Python<'py>, mover: &Mover) -> PyResult<Boun
 fn set_place(part: &Bound<'_, PyDict>, end: &str, place: &Place) -> PyResult<()> {
     match place {
         Place::Tip(tip) => part.set_item(end, (tip.x, tip.y)),
-        Place::Configuration(q) => part.set_item(format!("{end}_q"), q),
+        Place::Configuration(q) => part.set_item(format!("{end}_q"), q.to_vec()),
     }
 }
 

@@ -1,9 +1,10 @@
 //! The parts of a scene as the dataclasses of `elbowroom.scene` hold them.
 
-use elbowroom::arm::{Joint, JointLimits, MotionLimits, PlanarArm};
+use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits};
 use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Course, Mover, Obstacle, Place, Shape, Sight, Task, TaskPosture, Waypoint};
+use elbowroom::online::KnownMotion;
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Shape, Sight, Task, TaskPosture, Waypoint};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -100,10 +101,10 @@ impl JointPart {
 }
 
 impl ArmPart {
-    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<PlanarArm> {
+    pub(crate) fn build(&self, py: Python<'_>) -> PyResult<Arm> {
         let joint = |(j, part): (usize, &JointPart)| part.build(py, &format!("arm.joints[{j}]"));
         let joints = self.joints.iter().enumerate().map(joint).collect::<PyResult<Vec<Joint>>>()?;
-        PlanarArm::new(point(self.base), self.links.clone(), self.half_width, joints, self.self_collision)
+        Arm::new(point(self.base), self.links.clone(), self.half_width, joints, self.self_collision)
             .map_err(|error| errors::part(py, "arm", &error.to_string()))
     }
 }
@@ -116,26 +117,27 @@ impl GridPart {
 
 impl ObstaclePart {
     /// The obstacle, and how it moves if it does.
-    pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<(Obstacle, Option<Mover>)> {
+    pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<Obstacle> {
         let refused = |message: String| errors::part(py, &format!("obstacles[{index}]"), &message);
-        let (obstacle, motion) = match self {
+        let (name, shape, motion) = match self {
             Self::Circle { center, radius, name, motion } => {
                 let circle =
                     Circle::new(point(center), radius).map_err(|error| refused(error.to_string()))?;
-                (Obstacle { name, shape: Shape::Circle(circle) }, motion)
+                (name, Shape::Circle(circle), motion)
             }
             Self::Polygon { vertices, name, motion } => {
                 let polygon = Polygon::new(vertices.into_iter().map(point).collect())
                     .map_err(|error| refused(error.to_string()))?;
-                (Obstacle { name, shape: Shape::Polygon(polygon) }, motion)
+                (name, Shape::Polygon(polygon), motion)
             }
         };
-        Ok((obstacle, motion.map(|motion| motion.build(py, index)).transpose()?))
+        let motion = motion.map(|motion| motion.build(py, index)).transpose()?;
+        Ok(Obstacle { name, shape, motion })
     }
 }
 
 impl MotionPart {
-    fn build(self, py: Python<'_>, index: usize) -> PyResult<Mover> {
+    fn build(self, py: Python<'_>, index: usize) -> PyResult<ObstacleMotion> {
         let refused = |message: &str| errors::part(py, &format!("obstacles[{index}].motion"), message);
         let vector = |[x, y]: [f64; 2]| Vector::new(x, y);
         let course = match (self.waypoints, self.velocity, self.chases) {
@@ -155,15 +157,20 @@ impl MotionPart {
         if matches!(course, Course::Chase { .. }) && self.greatest_speed.is_none() {
             return Err(refused("greatest_speed is needed beside chases"));
         }
-        Mover::new(index, course, sight, self.greatest_speed).map_err(|error| refused(&error.to_string()))
+        ObstacleMotion::new(course, sight, self.greatest_speed).map_err(|error| refused(&error.to_string()))
     }
 }
 
 impl KnownPart {
     /// The obstacle that the scene declares to move as `declared`, as it is known.
-    pub(crate) fn build(self, py: Python<'_>, index: usize, declared: &Mover) -> PyResult<Mover> {
+    pub(crate) fn build(
+        self,
+        py: Python<'_>,
+        index: usize,
+        declared: &ObstacleMotion,
+    ) -> PyResult<KnownMotion> {
         let refused = |message: &str| errors::setting(py, "known", &format!("known[{index}]: {message}"));
-        match self {
+        let motion = match self {
             Self::Motion(motion) if motion.chases => {
                 Err(refused("nobody knows the course of what chases; a Sighting says where it was seen"))
             }
@@ -171,17 +178,18 @@ impl KnownPart {
             Self::Sighting { shift: [x, y], time, greatest_speed } => {
                 let course = Course::Unknown { seen: time, shift: Vector::new(x, y) };
                 let speed = greatest_speed.unwrap_or_else(|| declared.greatest_speed());
-                Mover::new(index, course, Sight::Always, Some(speed))
+                ObstacleMotion::new(course, Sight::Always, Some(speed))
                     .map_err(|error| refused(&error.to_string()))
             }
-        }
+        };
+        Ok(KnownMotion { obstacle: index, motion: motion? })
     }
 }
 
 impl PlacePart {
     fn build(&self) -> Place {
         match self {
-            Self::Configuration { q } => Place::Configuration(q.clone()),
+            Self::Configuration { q } => Place::Configuration(q.clone().into()),
             Self::Tip(tip) => Place::Tip(point(*tip)),
         }
     }

@@ -1,6 +1,5 @@
 //! A verdict as plain data.
 
-use elbowroom::arm::PlanarArm;
 use elbowroom::scene::Scene;
 use elbowroom::verify::{Against, FLOOR, MotionMargin, Verdict, Violation};
 use pyo3::prelude::*;
@@ -8,7 +7,7 @@ use pyo3::types::{PyDict, PyList};
 
 pub(crate) fn as_dict<'py>(
     py: Python<'py>,
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     verdict: &Verdict,
 ) -> PyResult<Bound<'py, PyDict>> {
     let fields = PyDict::new(py);
@@ -55,7 +54,7 @@ fn margin_fields<'py>(py: Python<'py>, margin: &MotionMargin) -> PyResult<Bound<
 
 fn violation_fields<'py>(
     py: Python<'py>,
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     violation: &Violation,
 ) -> PyResult<Bound<'py, PyDict>> {
     let part = PyDict::new(py);
@@ -101,11 +100,11 @@ fn violation_fields<'py>(
 }
 
 /// The obstacle and its name, or the other link.
-fn set_against(part: &Bound<'_, PyDict>, scene: &Scene<PlanarArm>, against: Against) -> PyResult<()> {
+fn set_against(part: &Bound<'_, PyDict>, scene: &Scene, against: Against) -> PyResult<()> {
     match against {
         Against::Obstacle(obstacle) => {
             part.set_item("obstacle", obstacle)?;
-            part.set_item("name", scene.obstacles.get(obstacle).and_then(|o| o.name.as_deref()))
+            part.set_item("name", scene.obstacles().get(obstacle).and_then(|o| o.name.as_deref()))
         }
         Against::Link(link) => part.set_item("other_link", link),
     }

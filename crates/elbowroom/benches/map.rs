@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use elbowroom::arm::{Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::{FreeSpace, state_of};
 use elbowroom::geometry::{Circle, Point};
 use elbowroom::grid::Grid;
@@ -20,26 +20,25 @@ fn grid(points: usize) -> Grid {
 /// The paper's arm among `count` circles on two rings.
 fn circles(points: usize, count: usize) -> Scene {
     let limits = JointLimits::range(-2.6, 2.6).expect("the range is in order");
-    let joints =
-        [JointLimits::Continuous, limits].map(|limits| Joint { limits, motion: MotionLimits::default() });
-    let arm =
-        TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, joints).expect("the measures are sound");
+    let joints = vec![Joint::CONTINUOUS, Joint { limits, ..Joint::CONTINUOUS }];
+    let arm = Arm::new(Point::new(0.0, 0.0), vec![0.25; 2], 0.0, joints, false);
     let obstacles = (0..count)
         .map(|i| {
             let angle = TAU * i as f64 / count as f64;
             let distance = if i % 2 == 0 { 0.42 } else { 0.3 };
             let center = Point::new(distance * angle.cos(), distance * angle.sin());
-            Obstacle { name: None, shape: Shape::Circle(Circle { center, radius: 0.03 }) }
+            Obstacle::still(Shape::Circle(Circle { center, radius: 0.03 }))
         })
         .collect();
-    Scene { arm, grid: grid(points), obstacles, tasks: Vec::new() }
+    let arm = arm.expect("the measures are sound");
+    Scene::new(arm, grid(points), obstacles, Vec::new()).expect("the parts are sound")
 }
 
 /// `scenes/narrow.yaml` on a finer grid.
 fn narrow(points: usize) -> Scene {
     let text = include_str!("../../../python/elbowroom/scenes/narrow.yaml");
     let file = elbowroom::scene::parse(text, "narrow.yaml").expect("the scene is sound");
-    Scene { grid: grid(points), ..file.scene.two_link().expect("two links") }
+    file.scene.with_grid(grid(points))
 }
 
 fn maps(c: &mut Criterion) {
@@ -50,14 +49,15 @@ fn maps(c: &mut Criterion) {
         ("1001 x 1001, 12 circles", circles(1001, 12)),
         ("1001 x 1001, 8 circles and 4 polygons", narrow(1001)),
     ] {
-        let space = FreeSpace::of(&scene);
+        let scene = scene.two_link().expect("two links");
+        let space = FreeSpace::of(scene);
         for posture in Posture::ALL {
             for (cell, state) in space.map(posture).states().enumerate().step_by(97) {
-                assert_eq!(state, state_of(&scene, scene.grid.point(cell), posture));
+                assert_eq!(state, state_of(scene, scene.grid().point(cell), posture));
             }
         }
-        group.throughput(Throughput::Elements(2 * scene.grid.len() as u64));
-        group.bench_with_input(BenchmarkId::new("fill", name), &scene, |b, scene| {
+        group.throughput(Throughput::Elements(2 * scene.grid().len() as u64));
+        group.bench_with_input(BenchmarkId::new("fill", name), &scene, |b, &scene| {
             b.iter(|| FreeSpace::of(black_box(scene)));
         });
     }

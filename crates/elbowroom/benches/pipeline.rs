@@ -15,11 +15,10 @@ const EMPTY: &str = include_str!("../../../python/elbowroom/scenes/paper-empty.y
 
 fn pipeline(c: &mut Criterion) {
     let scene = parse(SCENE, "paper-standin.yaml").expect("the scene is sound").scene;
-    let scene = scene.two_link().expect("two links");
     let swarm = Method::DstarPso(GuidedSwarmSettings::default());
     let mut group = c.benchmark_group("pipeline");
     group.sample_size(20);
-    for (task, optimum) in scene.tasks.iter().zip([0.953_553, 0.812_132]) {
+    for (task, optimum) in scene.tasks().iter().zip([0.953_553, 0.812_132]) {
         for (name, method) in [("dstar", Method::Dstar), ("dstar-pso", swarm)] {
             let settings = PaperSettings { method, ..PaperSettings::default() };
             let found = plan_as_in_paper(&scene, task, &settings, &Unwatched).expect("there is a path");
@@ -31,11 +30,11 @@ fn pipeline(c: &mut Criterion) {
                 Method::Dstar => Planner::Dstar,
                 Method::DstarPso(swarm) => Planner::DstarPso(swarm),
             };
-            let settings = PlanSettings { planner, ..PlanSettings::default() };
-            let found = plan(&scene, task, &settings, &Unwatched).expect("there is a path");
+            let settings = PlanSettings::default();
+            let found = plan(&scene, task, &planner, &settings, &Unwatched).expect("there is a path");
             assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
             group.bench_function(BenchmarkId::new(format!("verified, {name}"), &task.name), |b| {
-                b.iter(|| plan(black_box(&scene), task, &settings, &Unwatched));
+                b.iter(|| plan(black_box(&scene), task, &planner, &settings, &Unwatched));
             });
         }
     }
@@ -44,14 +43,14 @@ fn pipeline(c: &mut Criterion) {
 
 fn without_obstacles(c: &mut Criterion) {
     let scene = parse(EMPTY, "paper-empty.yaml").expect("the scene is sound").scene;
-    let scene = scene.two_link().expect("two links");
+    let (planner, settings) = (Planner::default(), PlanSettings::default());
     let mut group = c.benchmark_group("pipeline");
     group.sample_size(20);
-    for (task, optimum) in scene.tasks.iter().zip([1.244_680, 0.861_838]) {
-        let found = plan(&scene, task, &PlanSettings::default(), &Unwatched).expect("there is a path");
+    for (task, optimum) in scene.tasks().iter().zip([1.244_680, 0.861_838]) {
+        let found = plan(&scene, task, &planner, &settings, &Unwatched).expect("there is a path");
         assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
         group.bench_function(BenchmarkId::new("verified without obstacles, dstar-pso", &task.name), |b| {
-            b.iter(|| plan(black_box(&scene), task, &PlanSettings::default(), &Unwatched));
+            b.iter(|| plan(black_box(&scene), task, &planner, &settings, &Unwatched));
         });
     }
     group.finish();

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+use elbowroom::arm::{Arm, Joint};
 use elbowroom::geometry::{Circle, Point};
 use elbowroom::grid::Grid;
 use elbowroom::scene::{Obstacle, Scene, Shape};
@@ -13,22 +13,18 @@ use elbowroom::trajectory::{Motion, durations_by_length, quintic_through, vias_a
 use elbowroom::verify::{VerifySettings, verify};
 
 fn scene() -> Scene {
-    let joint = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
-    let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, [joint; 2]).expect("an arm");
+    let arm = Arm::new(Point::new(0.0, 0.0), vec![0.25; 2], 0.0, vec![Joint::CONTINUOUS; 2], false);
     let centers = [[0.45, 0.05], [-0.45, 0.1], [0.05, -0.2], [0.2, 0.45], [-0.2, -0.3]];
     let obstacles = centers
-        .map(|[x, y]| Obstacle {
-            name: None,
-            shape: Shape::Circle(Circle { center: Point::new(x, y), radius: 0.05 }),
-        })
+        .map(|[x, y]| Obstacle::still(Shape::Circle(Circle { center: Point::new(x, y), radius: 0.05 })))
         .to_vec();
     let grid = Grid::new([-0.5, 0.5], [-0.5, 0.5], 0.01).expect("a grid");
-    Scene { arm, grid, obstacles, tasks: Vec::new() }
+    Scene::new(arm.expect("an arm"), grid, obstacles, Vec::new()).expect("a scene")
 }
 
 fn motion() -> Motion {
-    let places: Vec<Configuration<2>> =
-        (0..=6).map(|i| Configuration([0.3 + 0.4 * f64::from(i), 1.6 + 0.3 * f64::from(i % 3)])).collect();
+    let places: Vec<[f64; 2]> =
+        (0..=6).map(|i| [0.3 + 0.4 * f64::from(i), 1.6 + 0.3 * f64::from(i % 3)]).collect();
     let vias = vias_at(&places);
     Motion::new(quintic_through(&vias, &durations_by_length(&vias, 6.0))).expect("a motion")
 }
@@ -40,7 +36,7 @@ fn verify_paper_like(criterion: &mut Criterion) {
     criterion.bench_function("verify/six pieces, five circles", |bencher| {
         bencher.iter(|| verify(black_box(&scene), black_box(&motion), &settings));
     });
-    let empty = Scene { obstacles: Vec::new(), ..scene };
+    let empty = scene.with_obstacles(Vec::new()).expect("a scene");
     criterion.bench_function("verify/six pieces, no obstacle", |bencher| {
         bencher.iter(|| verify(black_box(&empty), black_box(&motion), &settings));
     });

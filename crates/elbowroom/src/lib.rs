@@ -4,7 +4,7 @@
 //! metres, angles in radians, times in seconds; positions are in the world frame.
 //!
 //! Modules import only from those before them:
-//! `geometry < surface < grid < search < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
+//! `geometry < surface < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
 
 pub mod arm;
 pub mod free_space;
@@ -13,6 +13,7 @@ pub mod grid;
 pub mod online;
 pub mod path;
 pub mod planners;
+mod random;
 pub mod scene;
 pub mod search;
 pub mod surface;

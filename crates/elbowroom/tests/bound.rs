@@ -3,6 +3,9 @@
 
 #![expect(clippy::print_stdout, reason = "a campaign reports its figures")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 #[expect(dead_code, reason = "shared between tests")]
@@ -13,12 +16,12 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, Posture, TwoLinkArm};
+use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::configurations;
 use elbowroom::geometry::{Point, Vector};
-use elbowroom::path::sweep_keeps;
+use elbowroom::path::straight_move_keeps;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
-use elbowroom::scene::{Scene, Task, TaskPosture};
+use elbowroom::scene::{Scene, Task, TaskPosture, TwoLinkScene};
 use elbowroom::surface::{Across, Measure, Side, Surface, SurfacePlace};
 use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
@@ -40,8 +43,7 @@ struct Lattice {
 }
 
 impl Lattice {
-    fn new(scene: &Scene, points: usize, keep: Option<Posture>) -> Self {
-        let joints = scene.arm.joints().map(|joint| joint.limits);
+    fn new(arm: &Arm, points: usize, keep: Option<Posture>) -> Self {
         let of = |limits: JointLimits| match limits {
             JointLimits::Continuous => (-PI, TAU / points as f64, points, true),
             JointLimits::Range { min, max } => {
@@ -49,17 +51,17 @@ impl Lattice {
                 (min, (max - min) / count as f64, count + 1, false)
             }
         };
-        let (a, b) = (of(joints[0]), of(joints[1]));
+        let (a, b) = (of(arm.joints()[0].limits), of(arm.joints()[1].limits));
         Self { low: [a.0, b.0], step: [a.1, b.1], count: [a.2, b.2], round: [a.3, b.3], keep }
     }
 
-    fn q(&self, node: usize) -> Configuration<2> {
+    fn q(&self, node: usize) -> [f64; 2] {
         let at = [node / self.count[1], node % self.count[1]];
-        Configuration(std::array::from_fn(|j| self.low[j] + self.step[j] * at[j] as f64))
+        std::array::from_fn(|j| self.low[j] + self.step[j] * at[j] as f64)
     }
 
     /// The place `by` steps away, and the plain way there.
-    fn next(&self, node: usize, by: [i64; 2]) -> Option<(usize, Configuration<2>)> {
+    fn next(&self, node: usize, by: [i64; 2]) -> Option<(usize, [f64; 2])> {
         let at = [(node / self.count[1]) as i64, (node % self.count[1]) as i64];
         let mut to = [0; 2];
         for j in 0..2 {
@@ -71,7 +73,7 @@ impl Lattice {
             }
         }
         let q = self.q(node);
-        let way = Configuration(std::array::from_fn(|j| q.0[j] + self.step[j] * by[j] as f64));
+        let way = std::array::from_fn(|j| q[j] + self.step[j] * by[j] as f64);
         Some((to[0] as usize * self.count[1] + to[1] as usize, way))
     }
 
@@ -80,15 +82,15 @@ impl Lattice {
     }
 
     /// The nodes around `q`, with the way from `q` to each.
-    fn around(&self, q: &Configuration<2>) -> Vec<(usize, Configuration<2>)> {
+    fn around(&self, q: &[f64; 2]) -> Vec<(usize, [f64; 2])> {
         let mut found = Vec::new();
         for node in 0..self.nodes() {
             let mut at = self.q(node);
             let near = (0..2).all(|j| {
                 if self.round[j] {
-                    at.0[j] += TAU * ((q.0[j] - at.0[j]) / TAU).round();
+                    at[j] += TAU * ((q[j] - at[j]) / TAU).round();
                 }
-                (at.0[j] - q.0[j]).abs() <= self.step[j] * (1.0 + 1e-9)
+                (at[j] - q[j]).abs() <= self.step[j] * (1.0 + 1e-9)
             });
             if near {
                 found.push((node, at));
@@ -97,22 +99,26 @@ impl Lattice {
         found
     }
 
-    fn in_posture(&self, q: &Configuration<2>) -> bool {
+    fn in_posture(&self, q: &[f64; 2]) -> bool {
         self.keep.is_none_or(|keep| Posture::of(q).is_none_or(|posture| posture == keep))
     }
 }
 
 /// What each step costs: joint travel, tip travel, time at the greatest speeds.
-fn costs(scene: &Scene, from: &Configuration<2>, to: &Configuration<2>, speeds: [f64; 2]) -> [f64; 3] {
-    let tips = |i: usize| scene.arm.tip(&from.lerp(to, i as f64 / 8.0));
+fn costs(arm: &Arm, from: &[f64; 2], to: &[f64; 2], speeds: [f64; 2]) -> [f64; 3] {
+    let tips = |i: usize| {
+        let share = i as f64 / 8.0;
+        arm.tip(&[0, 1].map(|j| from[j] + (to[j] - from[j]) * share))
+    };
     let tip: f64 = (0..8).map(|i| tips(i).distance(tips(i + 1))).sum();
-    let turn = [0, 1].map(|j| (to.0[j] - from.0[j]).abs());
+    let turn = [0, 1].map(|j| (to[j] - from[j]).abs());
     [turn[0].hypot(turn[1]), tip, (turn[0] / speeds[0]).max(turn[1] / speeds[1])]
 }
 
 fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option<Judged> {
-    let starts = configurations(scene, &task.start).ok()?;
-    let mut goals = configurations(scene, &task.goal).ok()?;
+    let (arm, two) = (scene.arm(), scene.two_link().ok()?);
+    let starts = configurations(two, &task.start).ok()?;
+    let mut goals = configurations(two, &task.goal).ok()?;
     let wanted = match task.posture {
         TaskPosture::Up => Some(Posture::ElbowUp),
         TaskPosture::Down => Some(Posture::ElbowDown),
@@ -128,16 +134,15 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
         _ => vec![None],
     };
     for keep in keeps {
-        let lattice = Lattice::new(scene, points, keep);
+        let lattice = Lattice::new(arm, points, keep);
         let clear: Vec<f64> = (0..lattice.nodes())
             .map(|node| {
                 let q = lattice.q(node);
-                if lattice.in_posture(&q) { judge::clearance(scene, q.0) } else { f64::NEG_INFINITY }
+                if lattice.in_posture(&q) { judge::clearance(scene, q) } else { f64::NEG_INFINITY }
             })
             .collect();
-        let own = |ends: &[Configuration<2>]| {
-            ends.iter().filter(|q| lattice.in_posture(q)).copied().collect::<Vec<_>>()
-        };
+        let own =
+            |ends: &[[f64; 2]]| ends.iter().filter(|q| lattice.in_posture(q)).copied().collect::<Vec<_>>();
         let (starts, goals) = (own(&starts), own(&goals));
         for objective in 0..3 {
             let mut least = vec![f64::INFINITY; lattice.nodes()];
@@ -145,8 +150,9 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
             let key = |cost: f64| Reverse(cost.to_bits());
             for start in &starts {
                 for (node, way) in lattice.around(start) {
-                    let cost = costs(scene, start, &way, speeds)[objective];
-                    if clear[node] > 0.0 && cost < least[node] && sweep_keeps(scene, start, &way, 0.0) {
+                    let cost = costs(arm, start, &way, speeds)[objective];
+                    if clear[node] > 0.0 && cost < least[node] && straight_move_keeps(scene, start, &way, 0.0)
+                    {
                         least[node] = cost;
                         queue.push((key(cost), node));
                     }
@@ -177,8 +183,8 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
                     [-2, -1],
                 ] {
                     let Some((to, way)) = lattice.next(node, by) else { continue };
-                    let cost = cost + costs(scene, &from, &way, speeds)[objective];
-                    if clear[to] > 0.0 && cost < least[to] && sweep_keeps(scene, &from, &way, 0.0) {
+                    let cost = cost + costs(arm, &from, &way, speeds)[objective];
+                    if clear[to] > 0.0 && cost < least[to] && straight_move_keeps(scene, &from, &way, 0.0) {
                         least[to] = cost;
                         queue.push((key(cost), to));
                     }
@@ -186,8 +192,8 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
             }
             for goal in &goals {
                 for (node, way) in lattice.around(goal) {
-                    let cost = least[node] + costs(scene, goal, &way, speeds)[objective];
-                    if cost.is_finite() && sweep_keeps(scene, goal, &way, 0.0) {
+                    let cost = least[node] + costs(arm, goal, &way, speeds)[objective];
+                    if cost.is_finite() && straight_move_keeps(scene, goal, &way, 0.0) {
                         let best = judged.least.get_or_insert([f64::INFINITY; 3]);
                         best[objective] = best[objective].min(cost);
                     }
@@ -195,7 +201,7 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
             }
         }
         // No place of a square is farther from its corners than half a step each way.
-        let [l1, l2] = scene.arm.lengths();
+        let [l1, l2] = two.arm().lengths();
         let half = 0.5 * lattice.step[0];
         let moved = half * (l1 + l2) + 0.5 * lattice.step[1] * l2;
         let open = |node: usize| clear[node] > -moved;
@@ -216,25 +222,27 @@ fn judged(scene: &Scene, task: &Task, points: usize, speeds: [f64; 2]) -> Option
 }
 
 /// Walls that part many a task: bars across the reach, and around its ends.
-fn wall_in(scene: &mut Scene, seed: u64) {
+fn wall_in(scene: Scene, seed: u64) -> Scene {
+    let mut scene = scene;
     let mut numbers = worlds::Numbers::seeded(seed ^ 0x5A5A);
-    let reach: f64 = scene.arm.lengths().iter().sum();
+    let reach: f64 = scene.arm().lengths().iter().sum();
     for _ in 0..8 + numbers.below(5) {
         let angle = numbers.within(-PI, PI);
         let (from, to) = (reach * numbers.within(0.1, 0.5), reach * numbers.within(0.7, 1.1));
         let at = |r: f64, angle: f64| [r * angle.cos(), r * angle.sin()];
         let added = worlds::bar(at(from, angle), at(to, angle + numbers.within(-0.3, 0.3)), 0.01);
         let Some(added) = added else { continue };
-        scene.obstacles.push(added);
+        let walled = build::with_obstacle(&scene, added);
         // A wall on the start or the goal would only be refused.
-        if scene
-            .tasks
-            .iter()
-            .any(|task| [&task.start, &task.goal].iter().any(|place| configurations(scene, place).is_err()))
-        {
-            scene.obstacles.pop();
+        let is_free = |two: TwoLinkScene<'_>| {
+            let places = walled.tasks().iter().flat_map(|task| [&task.start, &task.goal]);
+            places.map(|place| configurations(two, place)).all(|found| found.is_ok())
+        };
+        if walled.two_link().is_ok_and(is_free) {
+            scene = walled;
         }
     }
+    scene
 }
 
 /// How many worlds said what.
@@ -252,15 +260,15 @@ fn campaign(seeds: std::ops::Range<u64>, points: usize) -> Count {
     for seed in seeds {
         let Some(mut scene) = worlds::world(seed) else { continue };
         if seed % 2 == 0 {
-            wall_in(&mut scene, seed);
+            scene = wall_in(scene, seed);
         }
-        let task = scene.tasks[0].clone();
+        let task = &scene.tasks()[0];
         // The assumed speeds where none is stated: half pi.
-        let speeds = scene.arm.joints().map(|joint| joint.motion.velocity.unwrap_or(PI / 2.0));
-        let Some(judged) = judged(&scene, &task, points, speeds) else { continue };
+        let speeds = [0, 1].map(|j| scene.arm().joints()[j].motion.velocity.unwrap_or(PI / 2.0));
+        let Some(judged) = judged(&scene, task, points, speeds) else { continue };
         for (k, objective) in [Objective::Joint, Objective::Tip, Objective::Time].into_iter().enumerate() {
-            let settings = PlanSettings { planner: Planner::Optimal, objective, ..PlanSettings::default() };
-            match plan(&scene, &task, &settings, &Unwatched) {
+            let settings = PlanSettings { objective, ..PlanSettings::default() };
+            match plan(&scene, task, &Planner::Optimal, &settings, &Unwatched) {
                 Ok(plan) => {
                     assert!(!judged.parted, "seed {seed}: a motion where the flood finds none");
                     let Some(bound) = plan.lower_bound else {
@@ -319,42 +327,43 @@ fn has_a_gap(surface: &Surface, clearance: impl Fn(Point) -> f64) -> bool {
 fn walls_that_the_verifier_accepts_are_blocked_all_along() {
     let (mut accepted, mut refused) = ([0; 2], [0; 2]);
     for seed in 0..4_000 {
-        let Some(mut scene) = worlds::world(seed) else { continue };
-        scene.arm = TwoLinkArm::new(scene.arm.base(), scene.arm.lengths(), scene.arm.half_width(), {
-            scene.arm.joints().map(|joint| Joint { limits: JointLimits::Continuous, ..joint })
-        })
-        .unwrap();
+        let Some(scene) = worlds::world(seed) else { continue };
+        let free = |joint: &Joint| Joint { limits: JointLimits::Continuous, ..*joint };
+        let joints: Vec<Joint> = scene.arm().joints().iter().map(free).collect();
+        let scene =
+            scene.with_arm(build::arm_of(scene.arm().lengths(), scene.arm().half_width(), &joints)).unwrap();
+        let (two, half_width) = (scene.two_link().unwrap(), scene.arm().half_width());
         let mut numbers = worlds::Numbers::seeded(seed ^ 0xC3C3);
         for _ in 0..10 {
             let q = [numbers.within(-PI, PI), numbers.within(-PI, PI)];
             let size = 10f64.powf(numbers.within(-4.0, -0.7));
-            let tip = scene.arm.tip(&Configuration(q));
+            let tip = two.arm().tip(&q);
             let at = [q, [tip.x, tip.y]];
             let in_contact = [
                 judge::clearance(&scene, q) < 0.0,
-                scene.obstacles.iter().any(|o| distance::distance(o, at[1], at[1]) < scene.arm.half_width()),
+                scene.obstacles().iter().any(|o| distance::distance(o, at[1], at[1]) < half_width),
             ];
             for plane in (0..2).filter(|&plane| in_contact[plane]) {
                 let Some(surface) = walled(at[plane], size, &mut numbers) else { continue };
                 let place = SurfacePlace { cell: 0, point: Point::new(at[plane][0], at[plane][1]) };
-                let ends = [(Configuration(q), place)];
+                let ends = [(q, place)];
                 let (found, gap) = if plane == 0 {
                     let claim =
                         OpenJoints { surface: &surface, starts: &ends, goals: &[], keeps_posture: false };
                     let gap = has_a_gap(&surface, |p| judge::clearance(&scene, [p.x, p.y]));
-                    (bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true), gap)
+                    (bound_over_joints(two, &claim, Measure::Euclidean, &|| true), gap)
                 } else {
                     let claim = OpenTips { surface: &surface, starts: &ends, goals: &[] };
                     let clear = |p: Point| {
-                        let to =
-                            scene.obstacles.iter().map(|o| distance::distance(o, [p.x, p.y], [p.x, p.y]));
-                        let reach = p.distance(scene.arm.base());
-                        let [near, far] = scene.arm.reach();
+                        let at = [p.x, p.y];
+                        let to = scene.obstacles().iter().map(|o| distance::distance(o, at, at));
+                        let reach = p.distance(scene.arm().base());
+                        let [near, far] = scene.arm().reach();
                         let reached = (near..=far).contains(&reach);
-                        let clearance = to.fold(f64::INFINITY, f64::min) - scene.arm.half_width();
+                        let clearance = to.fold(f64::INFINITY, f64::min) - half_width;
                         if reached { clearance } else { -1.0 }
                     };
-                    (bound_over_tips(&scene, &claim, &|| true), has_a_gap(&surface, clear))
+                    (bound_over_tips(two, &claim, &|| true), has_a_gap(&surface, clear))
                 };
                 match found {
                     Ok(Reachability::Parted) => {
@@ -376,6 +385,7 @@ fn walls_that_the_verifier_accepts_are_blocked_all_along() {
 #[test]
 fn claims_that_the_arm_does_not_bear_out_are_refused() {
     let scene = (0..).find_map(worlds::world).unwrap();
+    let two = scene.two_link().unwrap();
     let square = |across: [Option<Across>; 4]| {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
         let side = |i: usize| Side { from: Point::new(corners[i].0, corners[i].1), across: across[i] };
@@ -384,17 +394,17 @@ fn claims_that_the_arm_does_not_bear_out_are_refused() {
     // A square that goes on at its own other end, as if a joint turned round after a radian.
     let to = |side, x| Some(Across { cell: 0, side, shift: Vector::new(x, 0.0) });
     let round = Surface::new(&[square([None, to(3, -1.0), None, to(1, 1.0)])]).unwrap();
-    let middle = Configuration([0.5, 0.5]);
-    let at = |q: Configuration<2>, x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });
-    let judged = |surface: &Surface, start: (Configuration<2>, SurfacePlace)| {
+    let middle = [0.5, 0.5];
+    let at = |q: [f64; 2], x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });
+    let judged = |surface: &Surface, start: ([f64; 2], SurfacePlace)| {
         let starts = [start];
         let claim = OpenJoints { surface, starts: &starts, goals: &[middle], keeps_posture: false };
-        bound_over_joints(&scene, &claim, Measure::Euclidean, &|| true)
+        bound_over_joints(two, &claim, Measure::Euclidean, &|| true)
     };
     assert!(matches!(judged(&round, at(middle, 0.5)), Err(BoundError::Seam { cell: 0, side: 1 })));
     let plain = Surface::new(&[square([None; 4])]).unwrap();
     assert!(matches!(judged(&plain, at(middle, 0.6)), Err(BoundError::Place { .. })));
-    assert!(matches!(judged(&plain, at(Configuration([2.5, 0.5]), 2.5)), Err(BoundError::Place { .. })));
+    assert!(matches!(judged(&plain, at([2.5, 0.5], 2.5)), Err(BoundError::Place { .. })));
 }
 
 #[test]

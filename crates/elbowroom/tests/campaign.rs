@@ -2,6 +2,9 @@
 
 #![expect(clippy::print_stdout, reason = "a campaign reports its figures")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 mod edges_judge;
@@ -10,7 +13,6 @@ mod worlds;
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use elbowroom::arm::Configuration;
 use elbowroom::free_space::FreeSpace;
 use elbowroom::planners::{
     ASSUMED_LIMITS, Objective, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
@@ -20,14 +22,15 @@ use elbowroom::swarm::GuidedSwarmSettings;
 use elbowroom::trajectory::{Piece, SpeedLimits, fastest_durations, quintic_through, vias_at};
 use rayon::prelude::*;
 
-fn settings(seed: u64) -> PlanSettings {
+fn planned(scene: &Scene, seed: u64) -> Result<Plan, PlanError> {
     let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
-    PlanSettings {
-        planner: if seed.is_multiple_of(2) { Planner::Dstar } else { Planner::DstarPso(swarm) },
+    let planner = if seed.is_multiple_of(2) { Planner::Dstar } else { Planner::DstarPso(swarm) };
+    let settings = PlanSettings {
         objective: [Objective::Tip, Objective::Joint, Objective::Time][(seed % 3) as usize],
         seed,
         ..PlanSettings::default()
-    }
+    };
+    plan(scene, &scene.tasks()[0], &planner, &settings, &Unwatched)
 }
 
 /// What became of some worlds.
@@ -67,7 +70,7 @@ impl Outcome {
 fn outcome(seed: u64) -> Outcome {
     let mut outcome = Outcome::default();
     let Some(scene) = worlds::world(seed) else { return Outcome { without_task: 1, ..outcome } };
-    match plan(&scene, &scene.tasks[0], &settings(seed), &Unwatched) {
+    match planned(&scene, seed) {
         Ok(plan) => {
             outcome.planned = 1;
             outcome.stops = plan.stops as u64;
@@ -94,7 +97,7 @@ fn judge_pieces(scene: &Scene, plan: &Plan, outcome: &mut Outcome) {
     for piece in plan.trajectory.motion().pieces() {
         outcome.pieces += 1;
         let beyond = (0..2).any(|j| {
-            let stated = scene.arm.joints()[j].motion;
+            let stated = scene.arm().joints()[j].motion;
             let stated = [stated.velocity, stated.acceleration, stated.jerk];
             let mut rate = derivative(&piece.coefficients[j]);
             (0..3).any(|k| {
@@ -174,9 +177,8 @@ fn a_hundred_thousand_worlds() {
 /// Pieces of a random motion under random limits, and how many of them go beyond a limit or jump.
 fn random_motion(seed: u64) -> (u64, u64) {
     let mut numbers = worlds::Numbers::seeded(seed);
-    let places: Vec<Configuration<2>> = (0..4 + numbers.below(12))
-        .map(|_| Configuration([numbers.within(-3.0, 3.0), numbers.within(-2.5, 2.5)]))
-        .collect();
+    let places: Vec<[f64; 2]> =
+        (0..4 + numbers.below(12)).map(|_| [numbers.within(-3.0, 3.0), numbers.within(-2.5, 2.5)]).collect();
     let limit = |numbers: &mut worlds::Numbers| SpeedLimits {
         velocity: numbers.within(0.2, 8.0),
         acceleration: numbers.within(0.5, 40.0),
@@ -238,8 +240,8 @@ fn fingerprint(count: u64, threads: usize) -> Option<u64> {
         let mut hasher = DefaultHasher::new();
         for seed in 0..count {
             let Some(scene) = worlds::world(seed) else { continue };
-            format!("{:?}", FreeSpace::of(&scene)).hash(&mut hasher);
-            format!("{:?}", plan(&scene, &scene.tasks[0], &settings(seed), &Unwatched)).hash(&mut hasher);
+            format!("{:?}", scene.two_link().map(FreeSpace::of)).hash(&mut hasher);
+            format!("{:?}", planned(&scene, seed)).hash(&mut hasher);
         }
         hasher.finish()
     }))

@@ -3,43 +3,45 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 mod chain_judge;
 #[path = "judge/distance.rs"]
 mod distance;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use chain_judge::{assert_true, clearance, example};
-use elbowroom::arm::PlanarArm;
+use build::{example, with_task};
+use chain_judge::{assert_true, clearance};
 use elbowroom::free_space::Reason;
 use elbowroom::geometry::Point;
 use elbowroom::planners::{
     Monitor, Objective, Plan, PlanError, PlanSettings, Planner, Stage, Unwatched, plan,
 };
-use elbowroom::scene::{Place, Scene, TaskPosture};
+use elbowroom::scene::{Place, Scene, Task, TaskPosture};
 use elbowroom::swarm::GuidedSwarmSettings;
 
 const SCENES: [&str; 3] = ["three-links", "five-links", "ten-links"];
 
 /// The example's first task.
-fn run(scene: &Scene<PlanarArm>, settings: &PlanSettings) -> Result<Plan, PlanError> {
-    plan(scene, &scene.tasks[0], settings, &Unwatched)
+fn run(scene: &Scene, settings: &PlanSettings) -> Result<Plan, PlanError> {
+    plan(scene, &scene.tasks()[0], &Planner::default(), settings, &Unwatched)
 }
 
-fn with_candidates(candidates: usize) -> PlanSettings {
-    let swarm = GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() };
-    PlanSettings { planner: Planner::DstarPso(swarm), ..PlanSettings::default() }
+fn with_candidates(candidates: usize) -> Planner {
+    Planner::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
 }
 
 #[test]
 fn narrow_places_are_passed_with_every_seed() {
     for name in SCENES {
         let scene = example(name);
-        for task in &scene.tasks {
+        for task in scene.tasks() {
             for seed in 0..3 {
                 let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
                 let settings = PlanSettings { seed, objective, ..PlanSettings::default() };
-                let plan = plan(&scene, task, &settings, &Unwatched)
+                let plan = plan(&scene, task, &Planner::default(), &settings, &Unwatched)
                     .unwrap_or_else(|error| panic!("{name}, {}, seed {seed}: {error}", task.name));
                 assert_true(&scene, task, &plan);
                 assert!(plan.lower_bound.is_none());
@@ -53,16 +55,16 @@ fn narrow_places_are_passed_with_every_seed() {
 fn the_examples_begin_and_end_clearly_free_and_lead_through_narrow_places() {
     for name in SCENES {
         let scene = example(name);
-        assert_eq!(scene.tasks.len(), 2, "{name}");
-        let narrow = 0.1 * scene.arm.reach()[1];
-        for task in &scene.tasks {
+        assert_eq!(scene.tasks().len(), 2, "{name}");
+        let narrow = 0.1 * scene.arm().reach()[1];
+        for task in scene.tasks() {
             for place in [&task.start, &task.goal] {
                 if let Place::Configuration(q) = place {
                     let clear = clearance(&scene, q);
                     assert!(clear > 0.02, "{name}, {}: {clear}", task.name);
                 }
             }
-            let plan = plan(&scene, task, &PlanSettings::default(), &Unwatched).unwrap();
+            let plan = plan(&scene, task, &Planner::default(), &PlanSettings::default(), &Unwatched).unwrap();
             let nearest = plan.trajectory.verdict().least_clearance.unwrap().distance;
             assert!(nearest < narrow, "{name}: {nearest}");
         }
@@ -84,48 +86,46 @@ fn same_seed_same_plan_whatever_the_threads() {
 
 #[test]
 fn an_arm_that_is_there_already_stands_still() {
-    let mut scene = example("three-links");
-    scene.tasks[0].goal = scene.tasks[0].start.clone();
+    let scene = with_task(&example("three-links"), 0, |task| task.goal = task.start.clone());
     let plan = run(&scene, &PlanSettings::default()).unwrap();
     assert_eq!((plan.cost, plan.trajectory.motion().duration()), (0.0, 0.0));
 }
 
 #[test]
 fn from_configuration_to_configuration_through_the_window() {
-    let mut scene = example("three-links");
-    let there = run(&scene, &PlanSettings::default()).unwrap();
-    scene.tasks[0].goal = Place::Configuration(there.joint_path.0.last().unwrap().clone());
+    let scene = example("three-links");
+    let there = run(&scene, &PlanSettings::default()).unwrap().joint_path.0.pop().unwrap();
+    let scene = with_task(&scene, 0, |task| task.goal = Place::Configuration(there));
     for seed in 0..3 {
         let plan = run(&scene, &PlanSettings { seed, ..PlanSettings::default() }).unwrap();
-        assert_true(&scene, &scene.tasks[0], &plan);
+        assert_true(&scene, &scene.tasks()[0], &plan);
     }
 }
 
 #[test]
 fn what_cannot_be_asked_of_the_arm_is_said() {
     let scene = example("five-links");
-    let with = |change: &dyn Fn(&mut Scene<PlanarArm>)| {
-        let mut scene = scene.clone();
-        change(&mut scene);
-        run(&scene, &PlanSettings::default()).unwrap_err()
+    let with = |change: &dyn Fn(&mut Task)| {
+        run(&with_task(&scene, 0, change), &PlanSettings::default()).unwrap_err()
     };
-    let far = with(&|scene| scene.tasks[0].goal = Place::Tip(Point::new(1.2, 0.0)));
+    let far = with(&|task| task.goal = Place::Tip(Point::new(1.2, 0.0)));
     let PlanError::Goal(not_free) = far else { panic!("{far}") };
     assert!(matches!(not_free.reasons[..], [(None, Reason::OutOfReach { .. })]));
 
-    let blocked = with(&|scene| scene.tasks[0].goal = Place::Configuration(vec![0.0; 5]));
+    let blocked = with(&|task| task.goal = Place::Configuration([0.0; 5].into()));
     let PlanError::Goal(not_free) = blocked else { panic!("{blocked}") };
     assert!(matches!(not_free.reasons[..], [(None, Reason::Collision { .. })]));
 
-    let inside = with(&|scene| scene.tasks[0].goal = Place::Tip(Point::new(0.52, 0.3)));
+    let inside = with(&|task| task.goal = Place::Tip(Point::new(0.52, 0.3)));
     assert!(matches!(inside, PlanError::EndNotFound { end: "goal", .. }), "{inside}");
 
     for posture in [TaskPosture::Up, TaskPosture::Down, TaskPosture::Keep] {
-        let posture = with(&|scene| scene.tasks[0].posture = posture);
+        let posture = with(&|task| task.posture = posture);
         assert_eq!(posture, PlanError::PostureOfMany { links: 5 });
     }
     for planner in [Planner::Dstar, Planner::Optimal] {
-        let other = run(&scene, &PlanSettings { planner, ..PlanSettings::default() }).unwrap_err();
+        let other =
+            plan(&scene, &scene.tasks()[0], &planner, &PlanSettings::default(), &Unwatched).unwrap_err();
         assert_eq!(other, PlanError::OtherArm { planner: planner.name(), links: 5 });
     }
 }
@@ -135,13 +135,15 @@ fn a_budget_that_is_too_small_is_kept_to() {
     // The tip is led around the wall's end first, which takes some thousand evaluations to unlearn.
     let scene = example("three-links");
     for seed in 0..3 {
-        let settings = PlanSettings { seed, ..with_candidates(1) };
-        match plan(&scene, &scene.tasks[1], &settings, &Unwatched) {
+        let settings = PlanSettings { seed, ..PlanSettings::default() };
+        match plan(&scene, &scene.tasks()[1], &with_candidates(1), &settings, &Unwatched) {
             Err(PlanError::NotFoundInBudget { evaluations }) => assert!(evaluations <= 2_000),
             other => panic!("{:?}", other.map(|plan| plan.cost)),
         }
     }
-    assert!(matches!(run(&scene, &with_candidates(0)), Err(PlanError::Swarm(_))));
+    let none = with_candidates(0);
+    let refused = plan(&scene, &scene.tasks()[0], &none, &PlanSettings::default(), &Unwatched);
+    assert!(matches!(refused, Err(PlanError::Swarm(_))));
 }
 
 /// Says no after so many questions.
@@ -161,7 +163,7 @@ fn a_monitor_that_says_no_is_obeyed() {
     let mut stopped = 0;
     for questions in [0, 1, 2, 3, 5, 8, 20, 50, 100, 200] {
         let monitor = Until(AtomicUsize::new(questions));
-        match plan(&scene, &scene.tasks[0], &PlanSettings::default(), &monitor) {
+        match plan(&scene, &scene.tasks()[0], &Planner::default(), &PlanSettings::default(), &monitor) {
             Err(PlanError::Stopped) => stopped += 1,
             Ok(_) => {}
             Err(other) => panic!("{questions}: {other}"),

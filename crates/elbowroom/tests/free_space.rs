@@ -3,17 +3,21 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use elbowroom::arm::{Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+use build::{circle, joint, stops};
+use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::{CONTACT_FLOOR, CellState, FreeSpace, Reason, configurations, state_of};
 use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Place, Scene, Shape};
+use elbowroom::scene::{Obstacle, Place, Scene, SceneProblem, Shape};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -25,21 +29,29 @@ fn pick(rng: &mut ChaCha8Rng, count: u64) -> u64 {
     rng.next_u64() % count
 }
 
-fn circle(x: f64, y: f64, radius: f64) -> Obstacle {
-    Obstacle { name: None, shape: Shape::Circle(Circle { center: Point::new(x, y), radius }) }
+fn of_parts(arm: Arm, grid: Grid, obstacles: Vec<Obstacle>) -> Scene {
+    Scene::new(arm, grid, obstacles, Vec::new()).unwrap()
+}
+
+fn arm(base: Point, lengths: [f64; 2], half_width: f64, joints: [Joint; 2]) -> Arm {
+    Arm::new(base, lengths.to_vec(), half_width, joints.to_vec(), false).unwrap()
+}
+
+fn map_of(scene: &Scene) -> FreeSpace {
+    FreeSpace::of(scene.two_link().unwrap())
 }
 
 fn random_limits(rng: &mut ChaCha8Rng) -> JointLimits {
     match pick(rng, 5) {
         0 | 1 => JointLimits::Continuous,
-        2 => JointLimits::range(0.0, TAU).unwrap(),
+        2 => stops(0.0, TAU),
         3 => {
             let half = uniform(rng, 0.1, 1.2 * PI);
-            JointLimits::range(-half, half).unwrap()
+            stops(-half, half)
         }
         _ => {
             let min = uniform(rng, -TAU, TAU);
-            JointLimits::range(min, min + uniform(rng, 0.0, 1.5 * TAU)).unwrap()
+            stops(min, min + uniform(rng, 0.0, 1.5 * TAU))
         }
     }
 }
@@ -58,7 +70,7 @@ fn star(rng: &mut ChaCha8Rng, center: Point, size: f64) -> Obstacle {
     if pick(rng, 2) == 0 {
         vertices.reverse();
     }
-    Obstacle { name: None, shape: Shape::Polygon(Polygon::new(vertices).unwrap()) }
+    Obstacle::still(Shape::Polygon(Polygon::new(vertices).unwrap()))
 }
 
 fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
@@ -70,8 +82,8 @@ fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
     } else {
         Point::new(uniform(rng, -2.0, 2.0), uniform(rng, -2.0, 2.0))
     };
-    let joints = [(); 2].map(|()| Joint { limits: random_limits(rng), motion: MotionLimits::default() });
-    let arm = TwoLinkArm::new(base, [l1, l2], half_width, joints).unwrap();
+    let joints = [(); 2].map(|()| joint(random_limits(rng)));
+    let arm = arm(base, [l1, l2], half_width, joints);
     let reach = 1.1 * (l1 + l2);
     let range = |middle: f64| [middle - reach, middle + reach];
     let grid = Grid::new(range(base.x), range(base.y), reach / uniform(rng, 8.0, 16.0)).unwrap();
@@ -85,12 +97,12 @@ fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
             if pick(rng, 2) == 0 { circle(center.x, center.y, size) } else { star(rng, center, size) }
         })
         .collect();
-    Scene { arm, grid, obstacles, tasks: Vec::new() }
+    of_parts(arm, grid, obstacles)
 }
 
 /// The judge's answer, or `None` within `doubt` of a decision.
 fn judged(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<CellState> {
-    let (base, [l1, l2]) = (scene.arm.base(), scene.arm.lengths());
+    let (base, [l1, l2]) = (scene.arm().base(), [0, 1].map(|j| scene.arm().lengths()[j]));
     let (dx, dy) = (tip.x - base.x, tip.y - base.y);
     let distance = (dx * dx + dy * dy).sqrt();
     let (near, far) = ((l1 - l2).abs(), l1 + l2);
@@ -108,7 +120,7 @@ fn judged(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<Cel
         Posture::ElbowDown => (dy.atan2(dx) - lean, bend),
     };
     for (j, q) in [q1, q2].into_iter().enumerate() {
-        if let JointLimits::Range { min, max } = scene.arm.joints()[j].limits {
+        if let JointLimits::Range { min, max } = scene.arm().joints()[j].limits {
             let turns = || (-10..=10).map(|k| q + TAU * f64::from(k));
             if turns().any(|a| (a - min).abs() < doubt || (a - max).abs() < doubt) {
                 return None;
@@ -120,9 +132,10 @@ fn judged(scene: &Scene, tip: Point, posture: Posture, doubt: f64) -> Option<Cel
     }
     let elbow = Point::new(base.x + l1 * q1.cos(), base.y + l1 * q1.sin());
     for (link, (a, b)) in [(base, elbow), (elbow, tip)].into_iter().enumerate() {
-        for (index, obstacle) in scene.obstacles.iter().enumerate() {
-            let clearance =
-                distance::distance(obstacle, [a.x, a.y], [b.x, b.y]) - scene.arm.half_width() - CONTACT_FLOOR;
+        for (index, obstacle) in scene.obstacles().iter().enumerate() {
+            let clearance = distance::distance(obstacle, [a.x, a.y], [b.x, b.y])
+                - scene.arm().half_width()
+                - CONTACT_FLOOR;
             if clearance.abs() < doubt {
                 return None;
             }
@@ -141,10 +154,10 @@ fn maps_of_a_thousand_random_scenes_equal_the_judge() {
     let mut seen = std::collections::HashSet::new();
     for _ in 0..1_000 {
         let scene = random_scene(&mut rng);
-        let space = FreeSpace::of(&scene);
+        let (two, space) = (scene.two_link().unwrap(), map_of(&scene));
         for posture in Posture::ALL {
             for (cell, state) in space.map(posture).states().enumerate() {
-                let tip = scene.grid.point(cell);
+                let tip = scene.grid().point(cell);
                 match judged(&scene, tip, posture, 1e-7) {
                     None => doubtful += 1,
                     Some(expected) => {
@@ -152,7 +165,7 @@ fn maps_of_a_thousand_random_scenes_equal_the_judge() {
                         compared += 1;
                     }
                 }
-                assert_eq!(state, state_of(&scene, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
+                assert_eq!(state, state_of(two, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
                 seen.insert(std::mem::discriminant(&state));
             }
         }
@@ -163,30 +176,30 @@ fn maps_of_a_thousand_random_scenes_equal_the_judge() {
 
 /// Every state of both maps is that of [`state_of`]; how many of them are free, and how many collide.
 fn assert_maps_are_those_of_state_of(scene: &Scene) -> [usize; 2] {
-    let space = FreeSpace::of(scene);
+    let (two, space) = (scene.two_link().unwrap(), map_of(scene));
     let mut counts = [0; 2];
     for posture in Posture::ALL {
         let map = space.map(posture);
-        assert_eq!(map.states().len(), scene.grid.len());
+        assert_eq!(map.states().len(), scene.grid().len());
         for (cell, state) in map.states().enumerate() {
-            let tip = scene.grid.point(cell);
-            assert_eq!(state, state_of(scene, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
+            let tip = scene.grid().point(cell);
+            assert_eq!(state, state_of(two, tip, posture), "{posture:?} at {tip:?} in {scene:#?}");
             assert_eq!((map.state(cell), map.is_free(cell)), (Some(state), state == CellState::Free));
             counts[0] += usize::from(state == CellState::Free);
             counts[1] += usize::from(matches!(state, CellState::Collision { .. }));
         }
-        assert_eq!((map.state(scene.grid.len()), map.is_free(scene.grid.len())), (None, false));
+        assert_eq!((map.state(scene.grid().len()), map.is_free(scene.grid().len())), (None, false));
     }
     counts
 }
 
 /// The grid of `scene` with `columns` and `rows`, from one corner of it to the other.
-fn with_points(scene: Scene, [columns, rows]: [u64; 2]) -> Scene {
-    let (old, base) = (scene.grid, scene.arm.base());
+fn with_points(scene: &Scene, [columns, rows]: [u64; 2]) -> Scene {
+    let (old, base) = (scene.grid(), scene.arm().base());
     let step = 2.0 * (base.x - old.origin().x) / columns.max(rows) as f64;
     let range = |min: f64, points: u64| [min, min + step * (points - 1) as f64];
     let grid = Grid::new(range(old.origin().x, columns), range(old.origin().y, rows), step).unwrap();
-    Scene { grid, ..scene }
+    scene.with_grid(grid)
 }
 
 #[test]
@@ -194,13 +207,13 @@ fn fine_maps_equal_state_of() {
     let mut rng = ChaCha8Rng::seed_from_u64(17);
     for _ in 0..40 {
         let scene = random_scene(&mut rng);
-        assert_maps_are_those_of_state_of(&with_points(scene, [129, 120]));
+        assert_maps_are_those_of_state_of(&with_points(&scene, [129, 120]));
     }
     // Rows and columns that end with, before and after a block of points.
     for _ in 0..300 {
         let scene = random_scene(&mut rng);
         let points = [(); 2].map(|()| 1 + pick(&mut rng, 41));
-        assert_maps_are_those_of_state_of(&with_points(scene, points));
+        assert_maps_are_those_of_state_of(&with_points(&scene, points));
     }
 }
 
@@ -215,14 +228,15 @@ fn maps_on_whole_numbers_equal_state_of() {
             let right = |angle: u64| PI / 2.0 * (angle as f64 - 4.0);
             let from = pick(&mut rng, 6);
             let limits = match pick(&mut rng, 3) {
-                0 => JointLimits::range(right(from), right(from + pick(&mut rng, 5))).unwrap(),
+                0 => stops(right(from), right(from + pick(&mut rng, 5))),
                 _ => JointLimits::Continuous,
             };
-            Joint { limits, motion: MotionLimits::default() }
+            joint(limits)
         });
-        let offset = [0.0, 0.0, 7.0, 1e6][pick(&mut rng, 4) as usize];
+        // As far out as the circles may be.
+        let offset = [0.0, 0.0, 7.0, 1e6 - 10.0][pick(&mut rng, 4) as usize];
         let half_width = [0.0, 1.0][pick(&mut rng, 2) as usize];
-        let arm = TwoLinkArm::new(Point::new(offset, -offset), lengths, half_width, joints).unwrap();
+        let arm = arm(Point::new(offset, -offset), lengths, half_width, joints);
         // Half of the obstacles are the floor of contact away from tangents and from lines of the grid.
         let floor = [0.0, CONTACT_FLOOR][pick(&mut rng, 2) as usize];
         let at = |x: f64, y: f64| Point::new(x + offset + floor, y - offset);
@@ -246,13 +260,13 @@ fn maps_on_whole_numbers_equal_state_of() {
                         .to_vec(),
                     _ => vec![at(-30.0, -30.0), at(30.0, -30.0), at(30.0, 30.0), at(-30.0, 30.0)],
                 };
-                Obstacle { name: None, shape: Shape::Polygon(Polygon::new(corners).unwrap()) }
+                Obstacle::still(Shape::Polygon(Polygon::new(corners).unwrap()))
             })
             .collect();
         let range = |middle: f64| [middle - 10.0, middle + 10.0];
         let step = if round % 4 == 0 { 0.25 } else { 1.0 };
         let grid = Grid::new(range(offset), range(-offset), step).unwrap();
-        assert_maps_are_those_of_state_of(&Scene { arm, grid, obstacles, tasks: Vec::new() });
+        assert_maps_are_those_of_state_of(&of_parts(arm, grid, obstacles));
     }
 }
 
@@ -263,19 +277,19 @@ fn maps_at_the_ends_of_the_reach_equal_state_of() {
     let mut rng = ChaCha8Rng::seed_from_u64(20);
     for _ in 0..1_000 {
         let scene = random_scene(&mut rng);
-        let (base, [nearest, farthest]) = (scene.arm.base(), scene.arm.reach());
+        let (base, [nearest, farthest]) = (scene.arm().base(), scene.arm().reach());
         let step = farthest * 10f64.powf(uniform(&mut rng, -9.0, -2.0));
         let end = if pick(&mut rng, 2) == 0 { nearest } else { farthest };
         let along = Vector::polar(1.0, uniform(&mut rng, -PI, PI));
         let radius = uniform(&mut rng, 0.01, 0.2);
         // A line of stretched or folded links runs past this circle, as near as the floor of contact.
-        let beside = radius + scene.arm.half_width() + CONTACT_FLOOR + step * uniform(&mut rng, -2.0, 2.0);
+        let beside = radius + scene.arm().half_width() + CONTACT_FLOOR + step * uniform(&mut rng, -2.0, 2.0);
         let center = base + along * uniform(&mut rng, 0.0, end) + Vector::new(-along.y, along.x) * beside;
         let corner = base + along * end + Vector::new(-8.0 * step, -8.0 * step);
         let range = |min: f64| [min, min + 16.0 * step];
         let grid = Grid::new(range(corner.x), range(corner.y), step).unwrap();
         let obstacles = vec![circle(center.x, center.y, radius)];
-        assert_maps_are_those_of_state_of(&Scene { grid, obstacles, ..scene });
+        assert_maps_are_those_of_state_of(&of_parts(scene.arm().clone(), grid, obstacles));
     }
 }
 
@@ -291,28 +305,34 @@ fn maps_among_thousands_of_obstacles_equal_state_of() {
         // The last one is in the way as well.
         let obstacles = obstacles.chain([circle(0.0, -0.3, 0.05)]).skip(1).collect();
         let scene = upright(0.0, JointLimits::Continuous, obstacles);
-        let scene = Scene { grid: Grid::new([-0.8, 0.8], [-0.8, 0.8], 0.02).unwrap(), ..scene };
+        let scene = scene.with_grid(build::grid(0.8, 0.02));
         let [free, colliding] = assert_maps_are_those_of_state_of(&scene);
         assert!(free > 0 && colliding > 0, "{count} obstacles: {free} free, {colliding} collide");
         let last = CellState::Collision { link: 1, obstacle: count as u16 - 1 };
-        assert!(FreeSpace::of(&scene).map(Posture::ElbowUp).states().any(|state| state == last));
+        assert!(map_of(&scene).map(Posture::ElbowUp).states().any(|state| state == last));
     }
 }
 
 /// The longest and the shortest arms, far and huge obstacles, vertices and grids at the end of the numbers.
 #[test]
 fn maps_at_the_ends_of_the_numbers_equal_state_of() {
-    let free = [Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() }; 2];
-    for (lengths, base) in
-        [([1e6, 1e6], 0.0), ([1e6, 1e-6], 0.0), ([1e-6, 1e-6], 0.0), ([1e-6, 1e-6], 1e6), ([0.5, 0.4], 1e6)]
-    {
+    let (mut with_circles, mut refused) = (0, 0);
+    for (lengths, base) in [
+        ([1e6, 1e6], 0.0),
+        ([1e6, 1e-6], 0.0),
+        ([1e-6, 1e-6], 0.0),
+        ([1e-6, 1e-6], 1e6),
+        ([0.5, 0.4], 1e6),
+        // A circle's centre may be as far out, and no farther.
+        ([1e-6, 1e-6], 1e6 - 1.0),
+        ([0.5, 0.4], 1e6 - 1.0),
+    ] {
         let size = lengths[0] + lengths[1];
         let at = |x: f64, y: f64| Point::new(base + size * x, base + size * y);
-        let polygon = |corners: [[f64; 2]; 4]| Obstacle {
-            name: None,
-            shape: Shape::Polygon(Polygon::new(corners.map(|[x, y]| at(x, y)).to_vec()).unwrap()),
+        let polygon = |corners: [[f64; 2]; 4]| {
+            Obstacle::still(Shape::Polygon(Polygon::new(corners.map(|[x, y]| at(x, y)).to_vec()).unwrap()))
         };
-        let tip = at(0.3, 0.6);
+        let tip = at(0.3, 0.45);
         let (huge, tiny) = (1e300 / size, 1e-200);
         for obstacle in [
             circle(tip.x, tip.y, 0.1 * size),
@@ -323,40 +343,40 @@ fn maps_at_the_ends_of_the_numbers_equal_state_of() {
             circle(f64::NAN, 0.0, 1.0),
             polygon([[0.1, 0.3], [0.8, 0.3], [0.8, 0.4], [0.1, 0.4]]),
             polygon([[0.1, 0.3], [huge, 0.3], [huge, huge], [0.1, huge]]),
-            Obstacle {
-                name: None,
-                shape: Shape::Polygon(
-                    Polygon::new(
-                        [[0.0, 0.0], [tiny, 0.0], [0.0, -size]].map(|[x, y]| Point::new(x, y)).to_vec(),
-                    )
-                    .unwrap(),
-                ),
-            },
+            build::polygon(&[[0.0, 0.0], [tiny, 0.0], [0.0, -size]]),
         ] {
-            let arm = TwoLinkArm::new(Point::new(base, base), lengths, 0.0, free).unwrap();
+            let arm = arm(Point::new(base, base), lengths, 0.0, [Joint::CONTINUOUS; 2]);
             let range = [base - 1.1 * size, base + 1.1 * size];
             for grid in [Grid::new(range, range, size / 20.0), Grid::new([-1e300, 1e300], [-1.0, 1.0], 1e299)]
             {
-                let obstacles = vec![obstacle.clone()];
-                let scene = Scene { arm, grid: grid.unwrap(), obstacles, tasks: Vec::new() };
-                assert_maps_are_those_of_state_of(&scene);
+                let scene = Scene::new(arm.clone(), grid.unwrap(), vec![obstacle.clone()], Vec::new());
+                if let Shape::Circle(circle) = obstacle.shape {
+                    let sound = Circle::new(circle.center, circle.radius).is_ok();
+                    *(if sound { &mut with_circles } else { &mut refused }) += 1;
+                    if !sound {
+                        assert!(matches!(scene, Err(SceneProblem::Circle { obstacle: 0, .. })), "{circle:?}");
+                        continue;
+                    }
+                }
+                assert_maps_are_those_of_state_of(&scene.unwrap());
             }
         }
     }
+    // Three sound circles and three that are none, twice each; two arms are too far out for two of the sound ones.
+    assert_eq!((with_circles, refused), (2 * (5 * 3 + 2), 2 * (7 * 3 + 2 * 2)));
 }
 
 /// The 3-4-5 arm of the tangency tests: at the tip (0.3, 0.4) its second link stands upright at x = 0.3.
 fn upright(half_width: f64, limits: JointLimits, obstacles: Vec<Obstacle>) -> Scene {
-    let joints =
-        [JointLimits::Continuous, limits].map(|limits| Joint { limits, motion: MotionLimits::default() });
-    let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [0.3, 0.4], half_width, joints).unwrap();
-    Scene { arm, grid: Grid::new([-0.8, 0.8], [-0.8, 0.8], 0.1).unwrap(), obstacles, tasks: Vec::new() }
+    let arm = build::arm_of(&[0.3, 0.4], half_width, &[Joint::CONTINUOUS, joint(limits)]);
+    of_parts(arm, build::grid(0.8, 0.1), obstacles)
 }
 
 #[test]
 fn touching_is_collision_and_the_limit_itself_is_allowed() {
     let tip = Point::new(0.3, 0.4);
-    let right_angle = JointLimits::range(-PI / 2.0, PI / 2.0).unwrap();
+    let right_angle = stops(-PI / 2.0, PI / 2.0);
+    let state_at = |scene: &Scene, tip: Point| state_of(scene.two_link().unwrap(), tip, Posture::ElbowDown);
     let hit = CellState::Collision { link: 2, obstacle: 0 };
     for (half_width, radius, expected) in [
         (0.0, 0.1, hit),
@@ -365,48 +385,42 @@ fn touching_is_collision_and_the_limit_itself_is_allowed() {
         (0.02, 0.08 - 1e-8, CellState::Free),
     ] {
         let scene = upright(half_width, right_angle, vec![circle(0.4, 0.2, radius)]);
-        assert_eq!(state_of(&scene, tip, Posture::ElbowDown), expected);
-        let cell = scene.grid.nearest(tip).unwrap();
-        assert_eq!(FreeSpace::of(&scene).map(Posture::ElbowDown).state(cell), Some(expected));
+        assert_eq!(state_at(&scene, tip), expected);
+        let cell = scene.grid().nearest(tip).unwrap();
+        assert_eq!(map_of(&scene).map(Posture::ElbowDown).state(cell), Some(expected));
     }
-    let square = |left: f64| {
-        let corners = [[left, 0.1], [left + 0.1, 0.1], [left + 0.1, 0.2], [left, 0.2]];
-        let polygon = Polygon::new(corners.map(|[x, y]| Point::new(x, y)).to_vec()).unwrap();
-        vec![Obstacle { name: None, shape: Shape::Polygon(polygon) }]
-    };
-    assert_eq!(state_of(&upright(0.0, right_angle, square(0.3)), tip, Posture::ElbowDown), hit);
-    let beside = upright(0.0, right_angle, square(0.3 + 1e-8));
-    assert_eq!(state_of(&beside, tip, Posture::ElbowDown), CellState::Free);
+    let square =
+        |left: f64| vec![build::polygon(&[[left, 0.1], [left + 0.1, 0.1], [left + 0.1, 0.2], [left, 0.2]])];
+    assert_eq!(state_at(&upright(0.0, right_angle, square(0.3)), tip), hit);
+    assert_eq!(state_at(&upright(0.0, right_angle, square(0.3 + 1e-8)), tip), CellState::Free);
 }
 
 #[test]
 fn the_papers_three_cases_add_up() {
     let scene = upright(0.0, JointLimits::Continuous, Vec::new());
-    let space = FreeSpace::of(&scene);
-    let cases = space.cases(&scene);
-    assert_eq!(cases.two + cases.one + cases.none, scene.grid.len());
+    let space = map_of(&scene);
+    let cases = space.cases(scene.two_link().unwrap());
+    assert_eq!(cases.two + cases.one + cases.none, scene.grid().len());
     // On this grid the reach of 0.7 m is met at the four ends of the axes, the hole of 0.1 m at its four.
     assert_eq!(cases.one, 8);
-    let annulus = (0..scene.grid.len())
+    let annulus = (0..scene.grid().len())
         .filter(|&cell| {
-            let (column, row) = scene.grid.column_row(cell);
+            let (column, row) = scene.grid().column_row(cell);
             let squared = (column as i64 - 8).pow(2) + (row as i64 - 8).pow(2);
             squared > 1 && squared < 49
         })
         .count();
     assert_eq!(cases.two, annulus);
     let reasons = space.map(Posture::ElbowUp).reasons();
-    assert_eq!(reasons.free + reasons.out_of_reach, scene.grid.len());
+    assert_eq!(reasons.free + reasons.out_of_reach, scene.grid().len());
 }
 
 #[test]
 fn a_place_that_is_not_free_says_why_and_where_the_arm_could_stand() {
-    let named = Obstacle {
-        name: Some("post".to_owned()),
-        shape: Shape::Circle(Circle { center: Point::new(0.3, 0.3), radius: 0.05 }),
-    };
-    let scene = upright(0.01, JointLimits::range(0.0, PI).unwrap(), vec![circle(5.0, 5.0, 1.0), named]);
-    let refused = configurations(&scene, &Place::Tip(Point::new(0.3, 0.4))).unwrap_err();
+    let named = Obstacle { name: Some("post".to_owned()), ..circle(0.3, 0.3, 0.05) };
+    let scene = upright(0.01, stops(0.0, PI), vec![circle(5.0, 5.0, 1.0), named]);
+    let two = scene.two_link().unwrap();
+    let refused = configurations(two, &Place::Tip(Point::new(0.3, 0.4))).unwrap_err();
     let [(up, limit), (down, contact)] = &refused.reasons[..] else { panic!("{refused:?}") };
     assert_eq!((*up, *down), (Some(Posture::ElbowUp), Some(Posture::ElbowDown)));
     assert!(matches!(limit, Reason::JointLimit { joint: 2, .. }));
@@ -415,20 +429,20 @@ fn a_place_that_is_not_free_says_why_and_where_the_arm_could_stand() {
     };
     assert!(name == "post" && (depth - 0.06).abs() < 1e-12);
     let nearest = refused.nearest_free.unwrap();
-    let free = |p: Point| configurations(&scene, &Place::Tip(p)).is_ok();
+    let free = |p: Point| configurations(two, &Place::Tip(p)).is_ok();
     assert!(free(nearest));
-    for cell in 0..scene.grid.len() {
-        let p = scene.grid.point(cell);
+    for cell in 0..scene.grid().len() {
+        let p = scene.grid().point(cell);
         assert!(!free(p) || p.distance(Point::new(0.3, 0.4)) >= nearest.distance(Point::new(0.3, 0.4)));
     }
     let text = refused.to_string();
     assert!(text.contains("obstacle 1 (post)") && text.contains("nearest free grid point"), "{text}");
 
-    let far = configurations(&scene, &Place::Tip(Point::new(2.0, 0.0))).unwrap_err();
+    let far = configurations(two, &Place::Tip(Point::new(2.0, 0.0))).unwrap_err();
     assert!(matches!(far.reasons[0].1, Reason::OutOfReach { distance: 2.0, .. }));
-    let bent = configurations(&scene, &Place::Configuration(vec![0.0, -0.1])).unwrap_err();
+    let bent = configurations(two, &Place::Configuration([0.0, -0.1].into())).unwrap_err();
     assert!(matches!(bent.reasons[..], [(None, Reason::JointLimit { joint: 2, .. })]));
-    let not_a_number = configurations(&scene, &Place::Configuration(vec![f64::NAN, 0.1]));
+    let not_a_number = configurations(two, &Place::Configuration([f64::NAN, 0.1].into()));
     assert!(matches!(not_a_number.unwrap_err().reasons[..], [(None, Reason::JointLimit { joint: 1, .. })]));
 }
 
@@ -450,11 +464,14 @@ fn depth_in_a_polygon_is_that_of_the_innermost_point() {
 #[test]
 fn a_map_that_is_stopped_is_no_map() {
     let scene = upright(0.0, JointLimits::Continuous, Vec::new());
-    assert!(FreeSpace::of_until(&scene, &|| false).is_none());
-    assert!(FreeSpace::of_until(&scene, &|| true).is_some());
+    assert!(FreeSpace::of_until(scene.two_link().unwrap(), &|| false).is_none());
+    assert!(FreeSpace::of_until(scene.two_link().unwrap(), &|| true).is_some());
 
-    let fine = Scene { grid: Grid::new([-0.8, 0.8], [-0.8, 0.8], 0.002).unwrap(), ..scene };
+    let fine = scene.with_grid(build::grid(0.8, 0.002));
     let asked = AtomicUsize::new(0);
-    assert!(FreeSpace::of_until(&fine, &|| asked.fetch_add(1, Ordering::Relaxed) < 100).is_none());
+    assert!(
+        FreeSpace::of_until(fine.two_link().unwrap(), &|| asked.fetch_add(1, Ordering::Relaxed) < 100)
+            .is_none()
+    );
     assert!(asked.load(Ordering::Relaxed) < 200, "it was asked on after the first no");
 }

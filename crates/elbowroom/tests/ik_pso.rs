@@ -2,37 +2,41 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 mod chain_judge;
 #[path = "judge/distance.rs"]
 mod distance;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use chain_judge::{assert_true, example};
-use elbowroom::arm::PlanarArm;
-use elbowroom::geometry::{Circle, Point};
+use build::{example, with_task};
+use chain_judge::assert_true;
+use elbowroom::geometry::Point;
 use elbowroom::planners::{
     IkPsoSettings, Monitor, Objective, OptionValue, Plan, PlanError, PlanSettings, Planner, Stage, Unwatched,
     plan,
 };
-use elbowroom::scene::{Obstacle, Place, Scene, Shape, TaskPosture};
+use elbowroom::scene::{Place, Scene, TaskPosture};
 
-fn with(evaluations: usize, seed: u64) -> PlanSettings {
-    PlanSettings { planner: Planner::IkPso(IkPsoSettings { evaluations }), seed, ..PlanSettings::default() }
+fn with(evaluations: usize) -> Planner {
+    Planner::IkPso(IkPsoSettings { evaluations })
 }
 
-fn run(scene: &Scene<PlanarArm>, task: usize, settings: &PlanSettings) -> Result<Plan, PlanError> {
-    plan(scene, &scene.tasks[task], settings, &Unwatched)
+fn run(scene: &Scene, task: usize, evaluations: usize, seed: u64) -> Result<Plan, PlanError> {
+    let settings = PlanSettings { seed, ..PlanSettings::default() };
+    plan(scene, &scene.tasks()[task], &with(evaluations), &settings, &Unwatched)
 }
 
 #[test]
 fn the_paper_s_tasks_are_done_with_every_seed() {
     let scene = example("paper-standin");
-    for task in &scene.tasks {
+    for task in scene.tasks() {
         for seed in 0..8 {
             let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
-            let settings = PlanSettings { objective, ..with(60_000, seed) };
-            let plan = plan(&scene, task, &settings, &Unwatched).unwrap();
+            let settings = PlanSettings { objective, seed, ..PlanSettings::default() };
+            let plan = plan(&scene, task, &with(60_000), &settings, &Unwatched).unwrap();
             assert_true(&scene, task, &plan);
             let bound = plan.lower_bound.unwrap();
             assert!(bound > 0.0 && bound <= plan.cost, "{bound}, {}", plan.cost);
@@ -47,16 +51,15 @@ fn postures_asked_for_are_kept_to() {
     for posture in [TaskPosture::Up, TaskPosture::Down, TaskPosture::Keep] {
         let mut planned = 0;
         for task in 0..2 {
-            let mut scene = example.clone();
-            scene.tasks[task].posture = posture;
+            let scene = with_task(&example, task, |task| task.posture = posture);
             for seed in 0..3 {
-                let plan = match run(&scene, task, &with(100_000, seed)) {
+                let plan = match run(&scene, task, 100_000, seed) {
                     Ok(plan) => plan,
                     Err(PlanError::NotFoundInBudget { .. }) => continue,
                     Err(other) => panic!("{posture:?}, {task}: {other}"),
                 };
                 planned += 1;
-                assert_true(&scene, &scene.tasks[task], &plan);
+                assert_true(&scene, &scene.tasks()[task], &plan);
                 let motion = plan.trajectory.motion();
                 let bends: Vec<f64> = (0..=1000)
                     .map(|i| {
@@ -77,16 +80,16 @@ fn postures_asked_for_are_kept_to() {
 
 #[test]
 fn a_goal_given_as_a_configuration_is_reached_exactly() {
-    let mut scene = example("paper-standin");
-    let there = run(&scene, 0, &with(60_000, 0)).unwrap();
-    scene.tasks[0].goal = Place::Configuration(there.joint_path.0.last().unwrap().clone());
+    let scene = example("paper-standin");
+    let there = run(&scene, 0, 60_000, 0).unwrap().joint_path.0.pop().unwrap();
+    let scene = with_task(&scene, 0, |task| task.goal = Place::Configuration(there));
     for seed in 0..3 {
-        let plan = run(&scene, 0, &with(60_000, seed)).unwrap();
-        assert_true(&scene, &scene.tasks[0], &plan);
+        let plan = run(&scene, 0, 60_000, seed).unwrap();
+        assert_true(&scene, &scene.tasks()[0], &plan);
     }
     let scene = example("five-links");
-    let plan = run(&scene, 1, &with(200_000, 0)).unwrap();
-    assert_true(&scene, &scene.tasks[1], &plan);
+    let plan = run(&scene, 1, 200_000, 0).unwrap();
+    assert_true(&scene, &scene.tasks()[1], &plan);
 }
 
 #[test]
@@ -95,10 +98,10 @@ fn arms_of_more_links_pass_narrow_places() {
     for name in ["three-links", "five-links", "ten-links"] {
         let scene = example(name);
         for seed in 0..3 {
-            match run(&scene, 0, &with(150_000, seed)) {
+            match run(&scene, 0, 150_000, seed) {
                 Ok(plan) => {
                     planned += 1;
-                    assert_true(&scene, &scene.tasks[0], &plan);
+                    assert_true(&scene, &scene.tasks()[0], &plan);
                     assert!(plan.lower_bound.is_none());
                 }
                 Err(PlanError::NotFoundInBudget { evaluations }) => assert!(evaluations <= 150_000),
@@ -112,11 +115,10 @@ fn arms_of_more_links_pass_narrow_places() {
 #[test]
 fn same_seed_same_plan_whatever_the_threads() {
     let scene = example("three-links");
-    let settings = with(60_000, 3);
-    let once = run(&scene, 0, &settings).unwrap();
+    let once = run(&scene, 0, 60_000, 3).unwrap();
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        assert!(pool.install(|| run(&scene, 0, &settings).unwrap()) == once, "{threads} threads");
+        assert!(pool.install(|| run(&scene, 0, 60_000, 3).unwrap()) == once, "{threads} threads");
     }
 }
 
@@ -125,7 +127,7 @@ fn budgets_are_kept_to() {
     for name in ["paper-standin", "ten-links"] {
         let scene = example(name);
         for evaluations in [0, 1, 10, 300, 3_000] {
-            match run(&scene, 0, &with(evaluations, 1)) {
+            match run(&scene, 0, evaluations, 1) {
                 Err(PlanError::NotFoundInBudget { evaluations: made }) => assert!(made <= evaluations),
                 other => panic!("{name}, {evaluations}: {:?}", other.map(|plan| plan.cost)),
             }
@@ -140,25 +142,23 @@ fn no_path_is_said_where_it_is_proved_and_bad_tasks_are_refused() {
     let mut scene = example.clone();
     for i in 0..24 {
         let angle = f64::from(i) * std::f64::consts::TAU / 24.0;
-        let center = Point::new(-0.45 + 0.04 * angle.cos(), -0.15 + 0.04 * angle.sin());
-        let shape = Shape::Circle(Circle { center, radius: 0.006 });
-        scene.obstacles.push(Obstacle { name: None, shape });
+        let [x, y] = [-0.45 + 0.04 * angle.cos(), -0.15 + 0.04 * angle.sin()];
+        scene = build::with_obstacle(&scene, build::circle(x, y, 0.006));
     }
-    let walled = run(&scene, 0, &with(50_000, 0)).unwrap_err();
+    let walled = run(&scene, 0, 50_000, 0).unwrap_err();
     assert!(matches!(walled, PlanError::NoPath(_) | PlanError::Goal(_)), "{walled}");
 
-    let mut scene = example.clone();
-    scene.tasks[0].goal = Place::Tip(Point::new(0.6, 0.0));
-    assert!(matches!(run(&scene, 0, &with(50_000, 0)), Err(PlanError::Goal(_))));
-    scene.tasks[0].goal = Place::Tip(Point::new(0.22, 0.22));
-    assert!(matches!(run(&scene, 0, &with(50_000, 0)), Err(PlanError::Goal(_))));
-    scene.tasks[0].goal = scene.tasks[0].start.clone();
-    let stays = run(&scene, 0, &with(0, 0)).unwrap();
+    let to = |goal: Point| with_task(&example, 0, |task| task.goal = Place::Tip(goal));
+    let scene = to(Point::new(0.6, 0.0));
+    assert!(matches!(run(&scene, 0, 50_000, 0), Err(PlanError::Goal(_))));
+    let scene = to(Point::new(0.22, 0.22));
+    assert!(matches!(run(&scene, 0, 50_000, 0), Err(PlanError::Goal(_))));
+    let scene = with_task(&example, 0, |task| task.goal = task.start.clone());
+    let stays = run(&scene, 0, 0, 0).unwrap();
     assert_eq!((stays.cost, stays.lower_bound), (0.0, Some(0.0)));
 
-    let mut five = chain_judge::example("five-links");
-    five.tasks[0].posture = TaskPosture::Up;
-    assert_eq!(run(&five, 0, &with(1_000, 0)), Err(PlanError::PostureOfMany { links: 5 }));
+    let five = with_task(&build::example("five-links"), 0, |task| task.posture = TaskPosture::Up);
+    assert_eq!(run(&five, 0, 1_000, 0), Err(PlanError::PostureOfMany { links: 5 }));
 }
 
 /// Says no after so many questions.
@@ -177,7 +177,7 @@ fn a_monitor_that_says_no_is_obeyed() {
     let scene = example("five-links");
     for questions in [0, 1, 3, 10, 30, 100, 200] {
         let monitor = Until(AtomicUsize::new(questions));
-        let stopped = plan(&scene, &scene.tasks[0], &with(10_000_000, 0), &monitor);
+        let stopped = plan(&scene, &scene.tasks()[0], &with(10_000_000), &PlanSettings::default(), &monitor);
         assert!(matches!(stopped, Err(PlanError::Stopped)), "{questions}");
     }
 }

@@ -2,9 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
+
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::arm::{InverseError, Joint, JointLimits, MotionLimits, Posture, TwoLinkArm};
+use elbowroom::arm::{Arm, InverseError, JointLimits, Posture, TwoLink};
 use elbowroom::geometry::Point;
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -13,9 +17,9 @@ fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
-fn arm(base: Point, lengths: [f64; 2], limits: [JointLimits; 2]) -> TwoLinkArm {
-    let joints = limits.map(|limits| Joint { limits, motion: MotionLimits::default() });
-    TwoLinkArm::new(base, lengths, 0.0, joints).unwrap()
+fn arm(base: Point, lengths: [f64; 2], limits: [JointLimits; 2]) -> TwoLink {
+    let joints = limits.map(build::joint).to_vec();
+    Arm::new(base, lengths.to_vec(), 0.0, joints, false).unwrap().two_link().unwrap()
 }
 
 /// Elbow and tip by the textbook, for the judge's own use.
@@ -56,14 +60,14 @@ fn a_million_tips_come_back_to_a_trillionth_of_the_reach() {
                 }
                 Err(other) => panic!("{other}"),
             };
-            let (_, reached) = forward(base, [l1, l2], q.0);
+            let (_, reached) = forward(base, [l1, l2], q);
             let error = (reached.x - tip.x).hypot(reached.y - tip.y) / farthest;
             worst = worst.max(error);
             assert!(error <= 1e-12, "{error:e} of the reach off: links {l1} {l2}, tip {tip:?}");
-            assert!(q.0.iter().all(|angle| (-PI..=PI).contains(angle)));
+            assert!(q.iter().all(|angle| (-PI..=PI).contains(angle)));
             let right = match posture {
-                Posture::ElbowUp => q.0[1] <= 0.0,
-                Posture::ElbowDown => q.0[1] >= 0.0,
+                Posture::ElbowUp => q[1] <= 0.0,
+                Posture::ElbowDown => q[1] >= 0.0,
             };
             assert!(right, "{posture:?} gives {q:?}");
         }
@@ -75,9 +79,9 @@ fn a_million_tips_come_back_to_a_trillionth_of_the_reach() {
 fn full_stretch_and_fold_are_exact() {
     let quarter = arm(Point::new(0.0, 0.0), [0.25, 0.25], [JointLimits::Continuous; 2]);
     let stretched = quarter.inverse(Point::new(0.3, 0.4), Posture::ElbowDown).unwrap()[0];
-    assert_eq!(stretched.0[1], 0.0);
+    assert_eq!(stretched[1], 0.0);
     let folded = quarter.inverse(Point::new(0.0, 0.0), Posture::ElbowDown).unwrap()[0];
-    assert_eq!(folded.0[1], PI);
+    assert_eq!(folded[1], PI);
     let beyond = quarter.inverse(Point::new(0.3, 0.41), Posture::ElbowDown).unwrap_err();
     assert!(matches!(beyond, InverseError::OutOfReach { farthest, .. } if farthest == 0.5));
     let hollow = arm(Point::new(1.0, 1.0), [0.5, 0.2], [JointLimits::Continuous; 2]);
@@ -112,7 +116,7 @@ fn limits_are_closed_and_every_turn_between_the_stops_is_found() {
                 Ok(found) => {
                     assert_eq!(found.len(), expected.len());
                     for (q, e) in found.iter().zip(&expected) {
-                        assert!((q.0[0] - e[0]).abs() < 1e-6 && (q.0[1] - e[1]).abs() < 1e-6);
+                        assert!((q[0] - e[0]).abs() < 1e-6 && (q[1] - e[1]).abs() < 1e-6);
                     }
                 }
                 Err(_) => assert!(expected.is_empty(), "{expected:?}"),
@@ -123,7 +127,7 @@ fn limits_are_closed_and_every_turn_between_the_stops_is_found() {
     let arm = arm(Point::new(0.0, 0.0), [0.3, 0.4], [JointLimits::Continuous, right]);
     // 3-4-5: the second joint stands on its stop.
     let q = arm.inverse(Point::new(0.3, 0.4), Posture::ElbowDown).unwrap()[0];
-    assert!((q.0[1] - PI / 2.0).abs() < 1e-15 && right.contains(q.0[1]));
+    assert!((q[1] - PI / 2.0).abs() < 1e-15 && right.contains(q[1]));
     let inside = arm.inverse(Point::new(0.3, 0.39), Posture::ElbowDown).unwrap_err();
     assert!(matches!(inside, InverseError::OutsideJointLimits { joint: 2, .. }));
 }

@@ -3,9 +3,13 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
 #![expect(clippy::print_stdout, reason = "how many evaluations it takes is a figure for the docs")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
+
 use std::f64::consts::PI;
 
-use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits, PlanarArm, Posture};
+use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::geometry::Point;
 use elbowroom::planners::{
     InverseSwarmError, InverseSwarmSettings, Previous, SwarmInverse, inverse_by_swarm,
@@ -26,20 +30,15 @@ impl Numbers {
     }
 }
 
-fn joint(limits: JointLimits) -> Joint {
-    Joint { limits, motion: MotionLimits::default() }
-}
-
 /// Joint 1 continuous, the others within `bend` (rad).
-fn arm(lengths: Vec<f64>, bend: f64) -> PlanarArm {
-    let first = joint(JointLimits::Continuous);
-    let other = joint(JointLimits::range(-bend, bend).unwrap());
-    let joints = (0..lengths.len()).map(|j| if j == 0 { first } else { other }).collect();
-    PlanarArm::new(Point::new(0.1, -0.2), lengths, 0.0, joints, false).unwrap()
+fn arm(lengths: Vec<f64>, bend: f64) -> Arm {
+    let other = build::joint(JointLimits::range(-bend, bend).unwrap());
+    let joints = (0..lengths.len()).map(|j| if j == 0 { Joint::CONTINUOUS } else { other }).collect();
+    Arm::new(Point::new(0.1, -0.2), lengths, 0.0, joints, false).unwrap()
 }
 
 /// Where the tip is: sums of sines and cosines.
-fn tip(arm: &PlanarArm, q: &[f64]) -> Point {
+fn tip(arm: &Arm, q: &[f64]) -> Point {
     let (mut x, mut y, mut direction) = (arm.base().x, arm.base().y, 0.0);
     for (length, angle) in arm.lengths().iter().zip(q) {
         direction += angle;
@@ -49,15 +48,15 @@ fn tip(arm: &PlanarArm, q: &[f64]) -> Point {
     Point::new(x, y)
 }
 
-fn solved(arm: &PlanarArm, tip: Point, seed: u64) -> SwarmInverse {
+fn solved(arm: &Arm, tip: Point, seed: u64) -> SwarmInverse {
     inverse_by_swarm(arm, tip, None, &InverseSwarmSettings::default(), seed, &mut |_: &[f64]| 0.0).unwrap()
 }
 
 /// All that holds of any answer.
-fn assert_sound(arm: &PlanarArm, asked: Point, found: &SwarmInverse) {
+fn assert_sound(arm: &Arm, asked: Point, found: &SwarmInverse) {
     let settings = InverseSwarmSettings::default();
     assert!((tip(arm, &found.q).distance(asked) - found.error).abs() < 1e-12);
-    assert!(arm.allows(&found.q), "{:?}", found.q);
+    assert!(arm.within_limits(&found.q), "{:?}", found.q);
     assert_eq!(found.evaluations, found.convergence.len() * settings.particles);
     assert!(found.convergence.len() <= settings.iterations);
     assert_eq!(found.convergence.last(), Some(&found.error));
@@ -96,7 +95,7 @@ fn ten_thousand_tips_of_two_links_are_those_of_the_closed_form() {
         // In line the joints move with the root of the error; with the tip at the base joint 1 may be anywhere.
         let at_base = asked.distance(arm.base()) < 1e-6;
         let off = |q: &[f64; 2]| (0..2).map(|j| ((q[j] - found.q[j]) / 2.0).sin().abs()).fold(0.0, f64::max);
-        let nearest = known.iter().map(|q| off(&q.0)).fold(f64::INFINITY, f64::min);
+        let nearest = known.iter().map(off).fold(f64::INFINITY, f64::min);
         assert!(
             at_base || known.is_empty() || nearest < 1e-3,
             "case {case}: {nearest}, {:?}, {known:?}",

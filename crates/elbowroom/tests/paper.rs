@@ -2,53 +2,34 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
+
 use std::cell::Cell;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use elbowroom::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm, joint_distance};
+use build::{CIRCLES, joint, stops, with_task};
+use elbowroom::arm::{Arm, JointLimits, MotionLimits, joint_distance};
 use elbowroom::free_space::{FreeSpace, configurations};
-use elbowroom::geometry::{Circle, Point, Vector};
-use elbowroom::grid::Grid;
+use elbowroom::geometry::{Point, Vector};
 use elbowroom::path::{Jump, JumpKind, TipPath, follow};
 use elbowroom::planners::{
     Method, Monitor, PaperError, PaperPlan, PaperSettings, Stage, Unwatched, plan_as_in_paper,
 };
-use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
-
-const CIRCLES: [[f64; 2]; 5] = [[0.22, 0.22], [-0.08, 0.4], [-0.38, 0.18], [-0.2, -0.42], [0.38, -0.14]];
+use elbowroom::scene::{Place, Scene};
 
 /// The paper's arm; joint 2 within `bend` degrees.
 fn scene(first: JointLimits, bend: f64, circles: &[[f64; 2]], step: f64) -> Scene {
-    let second = JointLimits::range(-bend.to_radians(), bend.to_radians()).unwrap();
-    let joints = [first, second].map(|limits| Joint { limits, motion: MotionLimits::default() });
-    let circle = |&[x, y]: &[f64; 2]| {
-        let shape = Shape::Circle(Circle { center: Point::new(x, y), radius: 0.05 });
-        Obstacle { name: None, shape }
-    };
-    let task = |name: &str, start: [f64; 2], goal: [f64; 2]| Task {
-        name: name.to_owned(),
-        start: Place::Tip(Point::new(start[0], start[1])),
-        goal: Place::Tip(Point::new(goal[0], goal[1])),
-        posture: TaskPosture::Any,
-    };
-    Scene {
-        arm: TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, joints).unwrap(),
-        grid: Grid::new([-0.5, 0.5], [-0.5, 0.5], step).unwrap(),
-        obstacles: circles.iter().map(circle).collect(),
-        tasks: vec![task("first", [0.4, 0.1], [-0.45, -0.15]), task("second", [0.3, -0.3], [0.15, 0.45])],
-    }
+    build::paper(first, bend.to_radians(), MotionLimits::default(), circles, step)
 }
 
 /// The paper's arm with stops at 0 and 360 degrees, and joint 2 never negative. With the tip 40 cm out, link 1
 /// points 36.87 degrees (0.6435 rad) to the right of it.
-fn elbow_down_only() -> TwoLinkArm {
-    let limits = [
-        JointLimits::range(0.0, 360f64.to_radians()).unwrap(),
-        JointLimits::range(0.1, 150f64.to_radians()).unwrap(),
-    ];
-    let joints = limits.map(|limits| Joint { limits, motion: MotionLimits::default() });
-    TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.0, joints).unwrap()
+fn elbow_down_only() -> Arm {
+    let limits = [stops(0.0, 360f64.to_radians()), stops(0.1, 150f64.to_radians())];
+    build::arm_of(&[0.25, 0.25], 0.0, &limits.map(joint))
 }
 
 fn standin() -> Scene {
@@ -56,11 +37,11 @@ fn standin() -> Scene {
 }
 
 fn table1(step: f64) -> Scene {
-    scene(JointLimits::range(0.0, 360f64.to_radians()).unwrap(), 90.0, &CIRCLES, step)
+    scene(stops(0.0, 360f64.to_radians()), 90.0, &CIRCLES, step)
 }
 
 fn plan(scene: &Scene, task: usize, settings: &PaperSettings) -> Result<PaperPlan, PaperError> {
-    plan_as_in_paper(scene, &scene.tasks[task], settings, &Unwatched)
+    plan_as_in_paper(scene, &scene.tasks()[task], settings, &Unwatched)
 }
 
 fn dstar() -> PaperSettings {
@@ -106,7 +87,7 @@ fn among_the_equal_paths_none_comes_twice_and_all_cost_the_same() {
         assert!((path.length() - drawn.cost).abs() < 1e-9);
         assert!(!drawn.equal_paths[..i].contains(path));
         for tip in &path.0 {
-            assert!(configurations(&scene, &Place::Tip(*tip)).is_ok());
+            assert!(configurations(scene.two_link().unwrap(), &Place::Tip(*tip)).is_ok());
         }
     }
 }
@@ -143,10 +124,10 @@ fn the_motion_goes_through_its_vias_in_the_time_asked_for() {
         assert_eq!((plan.motion.start(), plan.motion.pieces().len()), (0.0, 5));
         assert!((plan.motion.end() - 10.0).abs() < 1e-12);
         for (piece, &via) in plan.motion.pieces().iter().zip(&plan.vias) {
-            assert!(joint_distance(&piece.at(0.0).position, &plan.joint_path.0[via].0) < 1e-12);
+            assert!(joint_distance(&piece.at(0.0).position, &plan.joint_path.0[via]) < 1e-12);
         }
         let last = plan.motion.at(10.0);
-        assert!(joint_distance(&last.position, &plan.joint_path.0.last().unwrap().0) < 1e-9);
+        assert!(joint_distance(&last.position, plan.joint_path.0.last().unwrap()) < 1e-9);
         assert!(last.velocity.iter().chain(&last.acceleration).all(|v| v.abs() < 1e-9));
     }
 }
@@ -168,35 +149,34 @@ fn a_path_that_must_change_posture_off_the_stretch_is_said_to_jump() {
     let scene = scene(JointLimits::Continuous, 150.0, &[on_ring(48.7), on_ring(11.3)], 0.01);
     let path = |points: &[[f64; 2]]| TipPath(points.iter().map(|p| Point::new(p[0], p[1])).collect());
     let straight = path(&[[-0.4, 0.0], [-0.39, 0.0], [-0.38, 0.0]]);
-    assert!(follow(&scene, &straight).is_ok_and(|followed| followed.jumps.is_empty()));
+    assert!(follow(scene.two_link().unwrap(), &straight).is_ok_and(|followed| followed.jumps.is_empty()));
     let arc: Vec<[f64; 2]> = (0..=60)
         .map(|degree| f64::from(degree).to_radians())
         .map(|angle| [0.33 * angle.cos(), 0.33 * angle.sin()])
         .collect();
-    let followed = follow(&scene, &path(&arc)).unwrap();
+    let followed = follow(scene.two_link().unwrap(), &path(&arc)).unwrap();
     assert_eq!(followed.jumps.len(), 1);
     for jump in &followed.jumps {
         assert_eq!(jump.kind, JumpKind::Posture);
-        let (a, b) = (followed.joints.0[jump.index], followed.joints.0[jump.index + 1]);
-        assert!(a.0[1] * b.0[1] < 0.0);
+        let (a, b) = (&followed.joints.0[jump.index], &followed.joints.0[jump.index + 1]);
+        assert!(a[1] * b[1] < 0.0);
     }
 }
 
 #[test]
 fn joint_1_with_stops_jumps_where_the_path_crosses_them() {
-    let with_stops = scene(JointLimits::range(0.0, 360f64.to_radians()).unwrap(), 150.0, &[], 0.01);
+    let with_stops = scene(stops(0.0, 360f64.to_radians()), 150.0, &[], 0.01);
     let crossing = plan(&with_stops, 1, &dstar()).unwrap();
     // Whether it changes its posture at the same time or not, joint 1 would have to turn most of the way round.
     assert_eq!(crossing.jumps.len(), 1);
     let at = crossing.jumps[0].index;
-    let turn = crossing.joint_path.0[at + 1].0[0] - crossing.joint_path.0[at].0[0];
+    let turn = crossing.joint_path.0[at + 1][0] - crossing.joint_path.0[at][0];
     assert!(turn.abs() > std::f64::consts::PI, "{turn}");
     // One posture only: then it is the stop and nothing else.
-    let mut one_posture = with_stops;
-    one_posture.arm = elbow_down_only();
+    let one_posture = with_stops.with_arm(elbow_down_only()).unwrap();
     let path = [-5.0, -2.0, 2.0, 5.0]
         .map(|degree: f64| Point::new(0.0, 0.0) + Vector::polar(0.4, degree.to_radians() + 0.6435));
-    let followed = follow(&one_posture, &TipPath(path.to_vec())).unwrap();
+    let followed = follow(one_posture.two_link().unwrap(), &TipPath(path.to_vec())).unwrap();
     assert_eq!(followed.jumps, [Jump { index: 1, kind: JumpKind::Stop { joint: 1 } }]);
     let continuous = scene(JointLimits::Continuous, 150.0, &[], 0.01);
     assert!(plan(&continuous, 1, &dstar()).unwrap().jumps.is_empty());
@@ -204,9 +184,10 @@ fn joint_1_with_stops_jumps_where_the_path_crosses_them() {
 
 #[test]
 fn a_place_off_the_grid_is_reached_exactly() {
-    let mut scene = standin();
-    scene.tasks[0].start = Place::Tip(Point::new(0.4034, 0.1051));
-    scene.tasks[0].goal = Place::Tip(Point::new(-0.4498, -0.1503));
+    let scene = with_task(&standin(), 0, |task| {
+        task.start = build::tip(0.4034, 0.1051);
+        task.goal = build::tip(-0.4498, -0.1503);
+    });
     let plan = plan(&scene, 0, &PaperSettings::default()).unwrap();
     assert_eq!(plan.tip_path.0.first(), Some(&Point::new(0.4034, 0.1051)));
     assert_eq!(plan.tip_path.0.last(), Some(&Point::new(-0.4498, -0.1503)));
@@ -215,18 +196,16 @@ fn a_place_off_the_grid_is_reached_exactly() {
 
 #[test]
 fn standing_still_is_a_plan() {
-    let mut scene = standin();
-    scene.tasks[0].goal = scene.tasks[0].start.clone();
+    let scene = with_task(&standin(), 0, |task| task.goal = task.start.clone());
     let plan = plan(&scene, 0, &PaperSettings::default()).unwrap();
     assert_eq!((plan.cost, plan.motion.duration()), (0.0, 0.0));
 }
 
 #[test]
 fn what_cannot_be_planned_is_refused_with_its_reason() {
-    let mut scene = standin();
-    scene.tasks[0].goal = Place::Tip(Point::new(0.22, 0.22));
+    let scene = with_task(&standin(), 0, |task| task.goal = build::tip(0.22, 0.22));
     assert!(matches!(plan(&scene, 0, &dstar()), Err(PaperError::Goal(_))));
-    scene.tasks[0].start = Place::Tip(Point::new(0.6, 0.0));
+    let scene = with_task(&scene, 0, |task| task.start = build::tip(0.6, 0.0));
     assert!(matches!(plan(&scene, 0, &dstar()), Err(PaperError::Start(_))));
     for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refused = plan(&scene, 1, &PaperSettings { duration, ..dstar() });
@@ -255,7 +234,7 @@ fn the_monitor_sees_every_stage_and_can_stop_each() {
     let scene = standin();
     let watched = |questions: usize| {
         let watch = Watch { questions_left: AtomicUsize::new(questions), stages: Mutex::new(Vec::new()) };
-        let result = plan_as_in_paper(&scene, &scene.tasks[0], &PaperSettings::default(), &watch);
+        let result = plan_as_in_paper(&scene, &scene.tasks()[0], &PaperSettings::default(), &watch);
         (result, watch.stages.into_inner().unwrap())
     };
     let all = [Stage::FreeSpace, Stage::CostToGo, Stage::TipPath, Stage::JointPath, Stage::Trajectory];
@@ -274,9 +253,10 @@ fn the_monitor_sees_every_stage_and_can_stop_each() {
 #[test]
 fn the_union_holds_what_either_posture_holds() {
     let scene = standin();
-    let space = FreeSpace::of(&scene);
-    let cases = space.cases(&scene);
-    let free = (0..scene.grid.len()).filter(|&cell| space.union_is_free(cell)).count();
+    let two = scene.two_link().unwrap();
+    let space = FreeSpace::of(two);
+    let cases = space.cases(two);
+    let free = (0..scene.grid().len()).filter(|&cell| space.union_is_free(cell)).count();
     assert_eq!(cases.two + cases.one, free);
-    assert_eq!(free + cases.none, scene.grid.len());
+    assert_eq!(free + cases.none, scene.grid().len());
 }

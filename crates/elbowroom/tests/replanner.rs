@@ -6,6 +6,9 @@
     reason = "a test that cannot be set up may panic; a campaign tells"
 )]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 #[path = "judge/doom.rs"]
@@ -14,12 +17,11 @@ mod doom;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
-use elbowroom::geometry::{Circle, Point, Segment, Vector};
-use elbowroom::grid::Grid;
+use elbowroom::arm::{Joint, JointLimits, MotionLimits};
+use elbowroom::geometry::{Point, Segment, Vector};
 use elbowroom::online::{Decision, Replanner, World};
-use elbowroom::path::clearances;
-use elbowroom::scene::{Course, Mover, Obstacle, Place, Scene, Shape, Sight, Waypoint};
+use elbowroom::path::link_clearances;
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Shape, Sight, Waypoint};
 use elbowroom::trajectory::{Motion, State};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -48,14 +50,13 @@ impl Numbers {
 }
 
 fn disc(center: Point, radius: f64) -> Obstacle {
-    Obstacle { name: None, shape: Shape::Circle(Circle { center, radius }) }
+    build::circle(center.x, center.y, radius)
 }
 
 struct Episode {
     world: World,
-    movers: Vec<Mover>,
-    start: Configuration<2>,
-    goal: Place,
+    start: [f64; 2],
+    goal: [f64; 2],
 }
 
 /// The paper's arm among still and moving discs whose courses are known.
@@ -63,13 +64,10 @@ fn episode(seed: u64) -> Option<Episode> {
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(seed));
     let motion = MotionLimits { velocity: Some(1.5), acceleration: Some(4.0), jerk: Some(40.0) };
     let joint = |limits| Joint { limits, motion };
-    let bend = JointLimits::range(-2.6, 2.6).unwrap();
-    let joints = [joint(JointLimits::Continuous), joint(bend)];
-    let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.01, joints).unwrap();
-    let grid = Grid::new([-0.5, 0.5], [-0.5, 0.5], 0.02).unwrap();
+    let joints = [joint(JointLimits::Continuous), joint(build::stops(-2.6, 2.6))];
+    let arm = build::arm_of(&[0.25, 0.25], 0.01, &joints);
     let still = (0..numbers.below(3)).map(|_| disc(numbers.place(0.3, 0.5), numbers.within(0.02, 0.05)));
     let mut obstacles: Vec<Obstacle> = still.collect();
-    let mut movers = Vec::new();
     for _ in 0..1 + numbers.below(3) {
         let from = numbers.place(0.2, 0.7);
         let mut time = 0.0;
@@ -86,17 +84,16 @@ fn episode(seed: u64) -> Option<Episode> {
             at = to;
         }
         let course = Course::Waypoints(waypoints);
-        movers.push(Mover::new(obstacles.len(), course, Sight::Always, None).unwrap());
-        obstacles.push(disc(from, numbers.within(0.02, 0.05)));
+        let motion = ObstacleMotion::new(course, Sight::Always, None).unwrap();
+        obstacles.push(Obstacle { motion: Some(motion), ..disc(from, numbers.within(0.02, 0.05)) });
     }
-    let scene = Scene { arm, grid, obstacles, tasks: Vec::new() };
+    let scene = Scene::new(arm, build::grid(0.5, 0.02), obstacles, Vec::new()).unwrap();
     let mut free = || {
         let q = [numbers.within(-PI, PI), numbers.within(-2.5, 2.5)];
-        (clearances(&scene, &q).into_iter().fold(f64::INFINITY, f64::min) > 0.01).then_some(q)
+        (link_clearances(&scene, &q).into_iter().fold(f64::INFINITY, f64::min) > 0.01).then_some(q)
     };
     let (start, goal) = ((0..50).find_map(|_| free())?, (0..50).find_map(|_| free())?);
-    let world = World::new(scene.clone(), movers.clone());
-    Some(Episode { world, movers, start: Configuration(start), goal: Place::Configuration(goal.to_vec()) })
+    Some(Episode { world: World::new(scene), start, goal })
 }
 
 #[derive(Debug, PartialEq, Clone, Copy)]
@@ -122,23 +119,34 @@ struct Account {
 fn run(episode: &Episode, seed: u64) -> Account {
     const STEP: f64 = 0.05;
     let mut world = episode.world.clone();
-    let scene = world.scene().clone();
-    let mut replanner = Replanner::new(scene, &episode.movers, episode.start, &episode.goal, seed).unwrap();
+    let goal = Place::Configuration(episode.goal.into());
+    let mut replanner = Replanner::new(world.scene().clone(), episode.start, &goal, seed).unwrap();
     let mut account = Account { end: End::TimeUp, not_safe: 0, had_a_way: false, was_doomed: false };
-    let mut state = State::rest(&episode.start.0);
+    let mut state = State::rest(&episode.start);
     for step in 0..(LONGEST / STEP).round() as u32 {
         let now = STEP * f64::from(step);
-        let q = Configuration([state.position[0], state.position[1]]);
-        let seen = world.seen_from(&q);
-        let update = replanner.update(&seen, now, &state, &|| true);
+        let known = world.seen_from(&state.position);
+        let update = replanner.update(&known, now, &state, &|| true).unwrap();
         account.not_safe += usize::from(!update.verdict.is_safe());
         let motion: &Motion = replanner.motion();
         if step == 0 {
             account.had_a_way = is_clear(episode, motion, update.reaches_goal);
         }
-        if let Decision::New(next) | Decision::Stop(next) = &update.decision {
+        let next = match &update.decision {
+            Decision::New(trajectory) => {
+                assert!(trajectory.verdict().is_safe() && update.verdict.is_safe());
+                Some(trajectory.motion())
+            }
+            Decision::Stop(motion) => {
+                assert!(!update.verdict.is_safe() && !update.reaches_goal);
+                Some(motion)
+            }
+            _ => None,
+        };
+        if let Some(next) = next {
             let begin = next.at(now);
             let jump = |a: &[f64], b: &[f64]| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+            assert_eq!(next, motion);
             assert!(jump(&begin.position, &state.position) < 1e-9);
             assert!(jump(&begin.velocity, &state.velocity) < 1e-9);
             assert!(jump(&begin.acceleration, &state.acceleration) < 1e-7);
@@ -146,13 +154,13 @@ fn run(episode: &Episode, seed: u64) -> Account {
         for i in 1..=10 {
             let time = now + STEP * f64::from(i) / 10.0;
             let q = motion.at(time).position;
-            world.advance(time, &Configuration([q[0], q[1]]));
+            world.advance(time, &q);
             if least(&world.obstacles(), [q[0], q[1]]) <= 0.0 {
                 return Account { end: End::Contact(time), ..account };
             }
         }
         state = motion.at(now + STEP);
-        if replanner.reaches_goal() && now > motion.end() {
+        if replanner.is_at_goal(&state) {
             return Account { end: End::Arrived, ..account };
         }
     }
@@ -170,14 +178,13 @@ fn least(obstacles: &[Obstacle], q: [f64; 2]) -> f64 {
 
 /// The obstacles where they are at `time` (s).
 fn obstacles_at(episode: &Episode, time: f64) -> Vec<Obstacle> {
-    let scene = episode.world.scene();
-    let place = |(i, obstacle): (usize, &Obstacle)| {
+    let place = |obstacle: &Obstacle| {
         let Shape::Circle(circle) = obstacle.shape else { panic!("only discs are drawn") };
-        let mover = episode.movers.iter().find(|mover| mover.obstacle() == i);
-        let shift = mover.map_or(Vector::new(0.0, 0.0), |mover| mover.course().shift_at(time));
+        let motion = obstacle.motion.as_ref();
+        let shift = motion.map_or(Vector::new(0.0, 0.0), |motion| motion.course().shift_at(time));
         disc(circle.center + shift, circle.radius)
     };
-    scene.obstacles.iter().enumerate().map(place).collect()
+    episode.world.scene().obstacles().iter().map(place).collect()
 }
 
 /// Whether the arm touches nothing that runs `motion`, the last one if it `is_last`, and else stands at its end as long as
@@ -201,13 +208,12 @@ fn is_doomed(episode: &Episode, end: f64) -> bool {
         };
         obstacles_at(episode, time).into_iter().map(plain).collect()
     };
-    [1.0, 2.0].into_iter().any(|finer| doom::is_doomed(episode.start.0, end, finer, discs_at))
+    [1.0, 2.0].into_iter().any(|finer| doom::is_doomed(episode.start, end, finer, discs_at))
 }
 
 /// Whether the goal is at no time free for the eight seconds that a motion there has to be safe for.
 fn is_goal_never_free(episode: &Episode) -> bool {
-    let Place::Configuration(goal) = &episode.goal else { panic!("goals are configurations") };
-    let is_free = |look: u32| least(&obstacles_at(episode, 0.1 * f64::from(look)), [goal[0], goal[1]]) > 0.0;
+    let is_free = |look: u32| least(&obstacles_at(episode, 0.1 * f64::from(look)), episode.goal) > 0.0;
     let free: Vec<bool> = (0..10 * (LONGEST as u32 + 8)).map(is_free).collect();
     !free.windows(80).any(|looks| looks.iter().all(|free| *free))
 }

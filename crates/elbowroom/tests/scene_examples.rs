@@ -29,7 +29,7 @@ fn all_scenes_of_the_repository_are_sound() {
 
 #[test]
 fn the_scenes_of_the_paper_are_read_as_they_are_written() {
-    let scene = |name: &str| parse(&example(name).unwrap(), name).unwrap().scene.two_link().unwrap();
+    let scene = |name: &str| parse(&example(name).unwrap(), name).unwrap().scene;
     let quarter = std::f64::consts::FRAC_PI_2;
     let tasks = [([0.4, 0.1], [-0.45, -0.15]), ([0.3, -0.3], [0.15, 0.45])]
         .map(|(start, goal)| [start, goal].map(|[x, y]: [f64; 2]| Place::Tip(Point::new(x, y))));
@@ -49,28 +49,33 @@ fn the_scenes_of_the_paper_are_read_as_they_are_written() {
         ("narrow", [JointLimits::Continuous, JointLimits::Range { min: -bend, max: bend }], 12),
     ] {
         let scene = scene(name);
-        assert_eq!(scene.arm.lengths(), [0.25, 0.25], "{name}");
-        assert_eq!((scene.arm.half_width(), scene.arm.base()), (0.0, Point::new(0.0, 0.0)), "{name}");
-        assert_eq!(scene.arm.joints().map(|joint| joint.limits), joints, "{name}");
-        assert_eq!((scene.grid.columns(), scene.grid.rows(), scene.grid.step()), (101, 101, 0.01), "{name}");
-        assert_eq!(scene.grid.origin(), Point::new(-0.5, -0.5), "{name}");
-        assert_eq!(scene.obstacles.len(), obstacles, "{name}");
-        for (task, (name, [start, goal])) in scene.tasks.iter().zip(["first", "second"].iter().zip(&tasks)) {
+        assert_eq!(scene.arm().lengths(), [0.25, 0.25], "{name}");
+        assert_eq!((scene.arm().half_width(), scene.arm().base()), (0.0, Point::new(0.0, 0.0)), "{name}");
+        assert!(scene.arm().joints().iter().map(|joint| joint.limits).eq(joints), "{name}");
+        assert_eq!(
+            (scene.grid().columns(), scene.grid().rows(), scene.grid().step()),
+            (101, 101, 0.01),
+            "{name}"
+        );
+        assert_eq!(scene.grid().origin(), Point::new(-0.5, -0.5), "{name}");
+        assert_eq!(scene.obstacles().len(), obstacles, "{name}");
+        for (task, (name, [start, goal])) in scene.tasks().iter().zip(["first", "second"].iter().zip(&tasks))
+        {
             assert_eq!(
                 (task.name.as_str(), &task.start, &task.goal, task.posture),
                 (*name, start, goal, TaskPosture::Any)
             );
         }
-        assert_eq!(scene.tasks.len(), 2);
+        assert_eq!(scene.tasks().len(), 2);
         if obstacles == 5 {
-            for (obstacle, [x, y]) in scene.obstacles.iter().zip(posts) {
+            for (obstacle, [x, y]) in scene.obstacles().iter().zip(posts) {
                 let center = Point::new(x / 100.0, y / 100.0);
                 assert_eq!(obstacle.shape, Shape::Circle(Circle { center, radius: 0.05 }));
             }
         }
     }
     let corners = scene("narrow")
-        .obstacles
+        .obstacles()
         .iter()
         .filter_map(|obstacle| match &obstacle.shape {
             Shape::Polygon(polygon) => Some(polygon.vertices().len()),

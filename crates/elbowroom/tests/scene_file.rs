@@ -1,8 +1,8 @@
 //! Scene files: what they say, and what is said of those that are wrong.
 
-use elbowroom::arm::{Arm, JointLimits, MotionLimits};
+use elbowroom::arm::{JointLimits, MotionLimits};
 use elbowroom::geometry::{Point, Vector};
-use elbowroom::scene::{Course, Location, Mover, Place, Shape, Sight, TaskPosture, Waypoint, parse};
+use elbowroom::scene::{Course, Location, ObstacleMotion, Place, Shape, Sight, TaskPosture, Waypoint, parse};
 
 const SOUND: &str = "\
 elbowroom: 1
@@ -31,22 +31,22 @@ fn message(text: &str) -> String {
 fn every_part_is_read_in_metres_and_radians() {
     let file = parse(SOUND, "s.yaml").unwrap();
     let scene = &file.scene;
-    assert_eq!(scene.arm.lengths(), [0.25, 0.2]);
-    assert_eq!(scene.arm.half_width(), 0.02);
-    assert_eq!(scene.arm.base(), Point::new(0.01, -0.02));
-    assert_eq!(scene.arm.joints()[0].limits, JointLimits::Continuous);
-    assert_eq!(scene.arm.joints()[0].motion.velocity, Some(90f64.to_radians()));
+    assert_eq!(scene.arm().lengths(), [0.25, 0.2]);
+    assert_eq!(scene.arm().half_width(), 0.02);
+    assert_eq!(scene.arm().base(), Point::new(0.01, -0.02));
+    assert_eq!(scene.arm().joints()[0].limits, JointLimits::Continuous);
+    assert_eq!(scene.arm().joints()[0].motion.velocity, Some(90f64.to_radians()));
     let bend = 150f64.to_radians();
-    assert_eq!(scene.arm.joints()[1].limits, JointLimits::Range { min: -bend, max: bend });
-    assert_eq!((scene.grid.columns(), scene.grid.rows()), (101, 81));
-    assert_eq!(scene.obstacles[0].name.as_deref(), Some("post"));
-    assert!(matches!(&scene.obstacles[0].shape, Shape::Circle(c) if c.radius == 0.05));
+    assert_eq!(scene.arm().joints()[1].limits, JointLimits::Range { min: -bend, max: bend });
+    assert_eq!((scene.grid().columns(), scene.grid().rows()), (101, 81));
+    assert_eq!(scene.obstacles()[0].name.as_deref(), Some("post"));
+    assert!(matches!(&scene.obstacles()[0].shape, Shape::Circle(c) if c.radius == 0.05));
     assert!(
-        matches!(&scene.obstacles[1].shape, Shape::Polygon(p) if p.vertices()[1] == Point::new(0.05, 0.3))
+        matches!(&scene.obstacles()[1].shape, Shape::Polygon(p) if p.vertices()[1] == Point::new(0.05, 0.3))
     );
     let task = scene.task("first").unwrap();
     assert_eq!(task.start, Place::Tip(Point::new(0.4, 0.1)));
-    assert_eq!(task.goal, Place::Configuration(vec![90f64.to_radians(), -30f64.to_radians()]));
+    assert_eq!(task.goal, Place::Configuration([90f64.to_radians(), -30f64.to_radians()].into()));
     assert_eq!(task.posture, TaskPosture::Keep);
     assert_eq!(file.locations.start("first"), Some(Location { line: 16, column: 18 }));
     assert_eq!(file.locations.goal("first"), Some(Location { line: 16, column: 34 }));
@@ -57,15 +57,15 @@ fn every_part_is_read_in_metres_and_radians() {
 fn lengths_and_angles_are_those_nearest_to_what_is_written() {
     for (length, text) in [("m", "0.255"), ("cm", "25.5"), ("mm", "255")] {
         let text = SOUND.replace("cm", length).replace("[25, 20]", &format!("[{text}, {text}]"));
-        assert_eq!(parse(&text, "s.yaml").unwrap().scene.arm.lengths(), [0.255; 2], "{length}");
+        assert_eq!(parse(&text, "s.yaml").unwrap().scene.arm().lengths(), [0.255; 2], "{length}");
     }
     for number in ["20", "+20", "20.", "2e1", "2.0E+1", "200e-1", "020"] {
         let file = parse(&SOUND.replace("[25, 20]", &format!("[25, {number}]")), "s.yaml");
-        assert_eq!(file.unwrap().scene.arm.lengths()[1], 0.2, "{number}");
+        assert_eq!(file.unwrap().scene.arm().lengths()[1], 0.2, "{number}");
     }
     let radians =
         SOUND.replace("deg", "rad").replace("velocity: 90", "velocity: 9, acceleration: 8, jerk: 7");
-    let joint = parse(&radians, "s.yaml").unwrap().scene.arm.joints()[0];
+    let joint = parse(&radians, "s.yaml").unwrap().scene.arm().joints()[0];
     let motion = MotionLimits { velocity: Some(9.0), acceleration: Some(8.0), jerk: Some(7.0) };
     assert_eq!(joint.motion, motion);
 }
@@ -74,7 +74,7 @@ fn lengths_and_angles_are_those_nearest_to_what_is_written() {
 fn a_map_alone_needs_neither_obstacles_nor_tasks() {
     let (map, _) = SOUND.split_once("obstacles:").unwrap();
     let scene = parse(map, "s.yaml").unwrap().scene;
-    assert!(scene.obstacles.is_empty() && scene.tasks.is_empty());
+    assert!(scene.obstacles().is_empty() && scene.tasks().is_empty());
 }
 
 #[test]
@@ -345,23 +345,28 @@ fn obstacles_that_move_are_read_with_their_units() {
     let with = |extra: &str| {
         SOUND.replacen("  - circle: {center: [22, 22], radius: 5}\n    name: post", &entry(extra), 1)
     };
-    let movers = |extra: &str| parse(&with(extra), "s.yaml").unwrap().movers;
+    // Of both obstacles: the polygon stands still.
+    let motions = |text: &str| {
+        let scene = parse(text, "s.yaml").unwrap().scene;
+        scene.obstacles().iter().map(|obstacle| obstacle.motion.clone()).collect::<Vec<_>>()
+    };
+    let first_moves = |extra: &str, course, sight, greatest_speed| {
+        let motion = ObstacleMotion::new(course, sight, greatest_speed).unwrap();
+        assert_eq!(motions(&with(extra)), [Some(motion), None], "{extra}");
+    };
     let waypoints = "motion: {waypoints: [{time: 0, shift: [0, 0]}, {time: 2, shift: [10, -5]}]}";
     let shift = |x, y| Vector::new(x, y);
     let course = Course::Waypoints(vec![
         Waypoint { time: 0.0, shift: shift(0.0, 0.0) },
         Waypoint { time: 2.0, shift: shift(0.1, -0.05) },
     ]);
-    assert_eq!(movers(waypoints), [Mover::new(0, course, Sight::Always, None).unwrap()]);
+    first_moves(waypoints, course, Sight::Always, None);
     let drift = Course::Drift { start: 1.5, velocity: shift(0.0, 0.2) };
     let late = "motion: {velocity: [0, 20], start: 1.5}, seen: false, seen_from: 3, greatest_speed: 25";
-    assert_eq!(movers(late), [Mover::new(0, drift, Sight::From(3.0), Some(0.25)).unwrap()]);
+    first_moves(late, drift, Sight::From(3.0), Some(0.25));
     let near = "motion: {chases: tip, keep_off: 2}, greatest_speed: 5, seen: false, sensing_radius: 30";
-    assert_eq!(
-        movers(near),
-        [Mover::new(0, Course::Chase { keep_off: 0.02 }, Sight::Within(0.3), Some(0.05)).unwrap()]
-    );
-    assert!(parse(SOUND, "s.yaml").unwrap().movers.is_empty());
+    first_moves(near, Course::Chase { keep_off: 0.02 }, Sight::Within(0.3), Some(0.05));
+    assert_eq!(motions(SOUND), [None, None]);
     for (extra, wrong) in [
         (
             "motion: {}",

@@ -1,5 +1,8 @@
 //! Slices of configuration space against another library's distances, on random worlds.
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 #[expect(dead_code, reason = "shared between tests")]
@@ -24,8 +27,8 @@ fn holds(intervals: &[[f64; 2]], angle: f64) -> bool {
 fn clearances(scene: &Scene, q: [f64; 2]) -> [f64; 2] {
     let [base, elbow, tip] = judge::skeleton(scene, q);
     [(base, elbow), (elbow, tip)].map(|(a, b)| {
-        let distances = scene.obstacles.iter().map(|obstacle| distance::distance(obstacle, a, b));
-        distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width()
+        let distances = scene.obstacles().iter().map(|obstacle| distance::distance(obstacle, a, b));
+        distances.fold(f64::INFINITY, f64::min) - scene.arm().half_width()
     })
 }
 
@@ -36,7 +39,7 @@ fn a_place_is_forbidden_exactly_where_a_link_touches() {
         let Some(scene) = worlds::world(seed) else { continue };
         let mut numbers = Numbers::seeded(seed ^ 0xA5A5);
         let margin = if seed % 2 == 0 { 0.0 } else { 0.01 };
-        let slices = Slices::new(&scene, margin);
+        let slices = Slices::new(scene.two_link().unwrap(), margin);
         let range = [-1.5 * PI, 2.5 * PI];
         let first = slices.first_joint(range);
         for _ in 0..20 {

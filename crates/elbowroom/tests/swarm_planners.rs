@@ -3,22 +3,26 @@
 
 #![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 mod chain_judge;
 #[path = "judge/distance.rs"]
 mod distance;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use chain_judge::{assert_true, example};
+use build::{example, with_task};
+use chain_judge::assert_true;
 use elbowroom::planners::{
     Monitor, NameError, Objective, OptionValue, Pace, PlanError, PlanSettings, Planner, Stage, Unwatched,
     plan,
 };
 use elbowroom::scene::TaskPosture;
 
-fn with(name: &str, options: &[(&str, OptionValue)]) -> PlanSettings {
+fn planner(name: &str, options: &[(&str, OptionValue)]) -> Planner {
     let options: Vec<_> = options.iter().map(|(name, value)| ((*name).to_owned(), value.clone())).collect();
-    PlanSettings { planner: Planner::by_name(name, &options).unwrap(), ..PlanSettings::default() }
+    Planner::by_name(name, &options).unwrap()
 }
 
 fn count(count: usize) -> OptionValue {
@@ -34,10 +38,10 @@ fn both_tasks_of_the_paper_are_done_safely() {
     let scene = example("paper-standin");
     for name in ["pso", "cbpso", "nsc-pso"] {
         let mut solved = 0;
-        for (seed, task) in scene.tasks.iter().cycle().take(4).enumerate() {
+        for (seed, task) in scene.tasks().iter().cycle().take(4).enumerate() {
             let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed % 3];
-            let settings = PlanSettings { seed: seed as u64, objective, ..with(name, &[]) };
-            match plan(&scene, task, &settings, &Unwatched) {
+            let settings = PlanSettings { seed: seed as u64, objective, ..PlanSettings::default() };
+            match plan(&scene, task, &planner(name, &[]), &settings, &Unwatched) {
                 Ok(plan) => {
                     assert_true(&scene, task, &plan);
                     let effort = plan.effort.unwrap();
@@ -59,10 +63,10 @@ fn a_cultural_swarm_reaches_through_narrow_places_with_many_links() {
     for name in ["three-links", "five-links"] {
         let scene = example(name);
         let found = (0..4).find_map(|seed| {
-            let settings = PlanSettings { seed, ..with("cbpso", &[]) };
-            plan(&scene, &scene.tasks[0], &settings, &Unwatched).ok()
+            let settings = PlanSettings { seed, ..PlanSettings::default() };
+            plan(&scene, &scene.tasks()[0], &planner("cbpso", &[]), &settings, &Unwatched).ok()
         });
-        assert_true(&scene, &scene.tasks[0], &found.unwrap());
+        assert_true(&scene, &scene.tasks()[0], &found.unwrap());
     }
 }
 
@@ -71,8 +75,9 @@ fn budgets_are_kept_and_a_seed_is_a_plan() {
     let scene = example("paper-standin");
     for name in ["pso", "cbpso", "nsc-pso"] {
         let run = |seed: u64, evaluations: usize| {
-            let settings = PlanSettings { seed, ..with(name, &[("evaluations", count(evaluations))]) };
-            plan(&scene, &scene.tasks[0], &settings, &Unwatched)
+            let planner = planner(name, &[("evaluations", count(evaluations))]);
+            let settings = PlanSettings { seed, ..PlanSettings::default() };
+            plan(&scene, &scene.tasks()[0], &planner, &settings, &Unwatched)
         };
         assert_eq!(run(3, 6000), run(3, 6000), "{name}");
         assert_ne!(run(3, 6000).ok(), run(4, 6000).ok(), "{name}");
@@ -83,12 +88,11 @@ fn budgets_are_kept_and_a_seed_is_a_plan() {
 
 #[test]
 fn a_posture_is_kept_and_a_duration_met() {
-    let mut scene = example("paper-standin");
-    scene.tasks[0].posture = TaskPosture::Keep;
+    let scene = with_task(&example("paper-standin"), 0, |task| task.posture = TaskPosture::Keep);
     for name in ["pso", "cbpso"] {
-        let settings = PlanSettings { pace: Pace::Duration(12.0), ..with(name, &[]) };
-        let plan = plan(&scene, &scene.tasks[0], &settings, &Unwatched).unwrap();
-        assert_true(&scene, &scene.tasks[0], &plan);
+        let settings = PlanSettings { pace: Pace::Duration(12.0), ..PlanSettings::default() };
+        let plan = plan(&scene, &scene.tasks()[0], &planner(name, &[]), &settings, &Unwatched).unwrap();
+        assert_true(&scene, &scene.tasks()[0], &plan);
         assert!((plan.trajectory.motion().duration() - 12.0).abs() < 1e-9, "{name}");
         assert!(plan.trajectory.verdict().posture_changes.is_empty(), "{name}");
     }
@@ -138,9 +142,10 @@ fn a_planner_that_is_stopped_says_so_or_hands_out_what_it_has() {
     let scene = example("paper-standin");
     for name in ["pso", "cbpso", "nsc-pso"] {
         for questions in [0, 1, 5, 60] {
-            match plan(&scene, &scene.tasks[0], &with(name, &[]), &Until(AtomicUsize::new(questions))) {
+            let until = Until(AtomicUsize::new(questions));
+            match plan(&scene, &scene.tasks()[0], &planner(name, &[]), &PlanSettings::default(), &until) {
                 Err(PlanError::Stopped) => {}
-                Ok(plan) => assert_true(&scene, &scene.tasks[0], &plan),
+                Ok(plan) => assert_true(&scene, &scene.tasks()[0], &plan),
                 Err(other) => panic!("{name}, {questions}: {other}"),
             }
         }
@@ -149,16 +154,18 @@ fn a_planner_that_is_stopped_says_so_or_hands_out_what_it_has() {
 
 #[test]
 fn an_arm_that_is_there_already_stands_still_and_bounds_are_told() {
-    let mut scene = example("paper-standin");
+    let scene = example("paper-standin");
     for name in ["pso", "cbpso", "nsc-pso"] {
-        let found = plan(&scene, &scene.tasks[0], &with(name, &[]), &Unwatched);
+        let found =
+            plan(&scene, &scene.tasks()[0], &planner(name, &[]), &PlanSettings::default(), &Unwatched);
         if let Ok(plan) = found {
             assert!(plan.lower_bound.unwrap() <= plan.cost, "{name}");
         }
     }
-    scene.tasks[0].goal = scene.tasks[0].start.clone();
+    let scene = with_task(&scene, 0, |task| task.goal = task.start.clone());
     for name in ["pso", "cbpso", "nsc-pso"] {
-        let plan = plan(&scene, &scene.tasks[0], &with(name, &[]), &Unwatched).unwrap();
+        let plan = plan(&scene, &scene.tasks()[0], &planner(name, &[]), &PlanSettings::default(), &Unwatched)
+            .unwrap();
         assert_eq!((plan.cost, plan.gap()), (0.0, Some(0.0)), "{name}");
     }
 }

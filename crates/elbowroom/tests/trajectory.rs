@@ -1,6 +1,5 @@
 //! Polynomials over time: end conditions, continuity, peaks, and the choice of vias.
 
-use elbowroom::arm::Configuration;
 use elbowroom::trajectory::{
     Curve, Motion, MotionError, Piece, Samples, SamplesError, SpeedLimits, State, TICK, durations_by_length,
     fastest_durations, interpolate, quintic_through, random_vias, rescaled, stretch, vias_at,
@@ -20,8 +19,8 @@ impl Numbers {
         State { position: pair(3.0), velocity: pair(2.0), acceleration: pair(5.0), jerk: vec![0.0; 2] }
     }
 
-    fn configurations(&mut self, count: usize) -> Vec<Configuration<2>> {
-        (0..count).map(|_| Configuration([self.next() * 3.0, self.next() * 2.0])).collect()
+    fn configurations(&mut self, count: usize) -> Vec<[f64; 2]> {
+        (0..count).map(|_| [self.next() * 3.0, self.next() * 2.0]).collect()
     }
 }
 
@@ -121,8 +120,8 @@ fn between_stops_the_motion_is_straight() {
         let piece = &quintic_through(&vias, &[1.5])[0];
         for i in 0..=20 {
             let q = piece.at(1.5 * f64::from(i) / 20.0).position;
-            let along: [f64; 2] = std::array::from_fn(|j| places[1].0[j] - places[0].0[j]);
-            let cross = (q[0] - places[0].0[0]) * along[1] - (q[1] - places[0].0[1]) * along[0];
+            let along: [f64; 2] = std::array::from_fn(|j| places[1][j] - places[0][j]);
+            let cross = (q[0] - places[0][0]) * along[1] - (q[1] - places[0][1]) * along[0];
             assert!(cross.abs() < 1e-12);
         }
     }
@@ -130,14 +129,14 @@ fn between_stops_the_motion_is_straight() {
 
 #[test]
 fn repeated_vias_and_standing_still() {
-    let a = Configuration([0.1, 0.2]);
-    let b = Configuration([0.5, -0.2]);
+    let a = [0.1, 0.2];
+    let b = [0.5, -0.2];
     assert_eq!(vias_at(&[a, a, b, b, b]).len(), 2);
     let places = [a, a];
     let vias = vias_at(&places);
     let durations = durations_by_length(&vias, 10.0);
     let motion = Motion::new(quintic_through(&vias, &durations)).unwrap();
-    assert_eq!((motion.duration(), motion.at(3.0)), (0.0, State::rest(&a.0)));
+    assert_eq!((motion.duration(), motion.at(3.0)), (0.0, State::rest(&a)));
 }
 
 #[test]
@@ -289,15 +288,15 @@ fn samples_become_the_curve_a_controller_would_run() {
 
 #[test]
 fn lengths_of_a_motion_are_those_of_its_curve() {
-    use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits, TwoLinkArm};
+    use elbowroom::arm::{Arm, Joint};
     use elbowroom::geometry::Point;
-    let free = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
-    let arm = TwoLinkArm::new(Point::new(0.3, -0.1), [0.4, 0.2], 0.0, [free; 2]).unwrap();
-    let places = [Configuration([0.2, 0.5]), Configuration([1.7, 0.5])];
+    let arm =
+        Arm::new(Point::new(0.3, -0.1), vec![0.4, 0.2], 0.0, vec![Joint::CONTINUOUS; 2], false).unwrap();
+    let places = [[0.2, 0.5], [1.7, 0.5]];
     let vias = vias_at(&places);
     let motion = Motion::new(quintic_through(&vias, &[2.0])).unwrap();
     // Joint 1 alone: the tip goes round a circle about the base.
-    let radius = arm.tip(&Configuration([0.2, 0.5])).distance(arm.base());
+    let radius = arm.tip(&[0.2, 0.5]).distance(arm.base());
     assert!((motion.tip_length(&arm) - 1.5 * radius).abs() < 1e-9);
     assert!((motion.joint_length() - 1.5).abs() < 1e-9);
     let mut numbers = Numbers(9);
@@ -308,7 +307,7 @@ fn lengths_of_a_motion_are_those_of_its_curve() {
         let samples: Vec<_> =
             (0..=40_000).map(|i| motion.at(3.0 * f64::from(i) / 40_000.0).position).collect();
         let joints: f64 = samples.windows(2).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
-        let tips: Vec<_> = samples.iter().map(|q| arm.tip_at(q)).collect();
+        let tips: Vec<_> = samples.iter().map(|q| arm.tip(q)).collect();
         let tip: f64 = tips.windows(2).map(|w| w[0].distance(w[1])).sum();
         assert!((motion.joint_length() - joints).abs() < 1e-5 * joints);
         assert!((motion.tip_length(&arm) - tip).abs() < 1e-5 * tip, "{} {tip}", motion.tip_length(&arm));

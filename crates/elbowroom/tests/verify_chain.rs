@@ -3,16 +3,18 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
 #[path = "judge/distance.rs"]
 mod distance;
 
 use std::f64::consts::PI;
 
-use elbowroom::arm::{Arm, ArmError, Joint, JointLimits, MotionLimits, PlanarArm, TwoLinkArm};
-use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::grid::Grid;
-use elbowroom::path::turn_is_free;
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use elbowroom::arm::{Arm, ArmError, Joint};
+use elbowroom::geometry::Point;
+use elbowroom::path::straight_move_is_free;
+use elbowroom::scene::Scene;
 use elbowroom::trajectory::{Motion, Piece, State, durations_by_length, quintic_through, vias_at};
 use elbowroom::verify::{Against, FLOOR, Verdict, VerifySettings, Violation, verify};
 use rand_chacha::ChaCha8Rng;
@@ -20,10 +22,7 @@ use rand_core::{Rng, SeedableRng};
 
 type P = [f64; 2];
 
-const FREE: Joint = Joint {
-    limits: JointLimits::Continuous,
-    motion: MotionLimits { velocity: None, acceleration: None, jerk: None },
-};
+const FREE: Joint = Joint::CONTINUOUS;
 
 struct Numbers(ChaCha8Rng);
 
@@ -42,7 +41,7 @@ impl Numbers {
 }
 
 /// Where base, joints and tip are at `q` (m): sums of sines and cosines, nothing shared with the crate.
-fn skeleton(arm: &PlanarArm, q: &[f64]) -> Vec<P> {
+fn skeleton(arm: &Arm, q: &[f64]) -> Vec<P> {
     let mut points = vec![[arm.base().x, arm.base().y]];
     for (k, length) in arm.lengths().iter().enumerate() {
         let direction: f64 = q[..=k].iter().sum();
@@ -65,17 +64,17 @@ fn between(a: [P; 2], b: [P; 2]) -> f64 {
 }
 
 /// Every clearance at `q` (m): of links from obstacles, and of links from links.
-fn clearances(scene: &Scene<PlanarArm>, q: &[f64]) -> Vec<((usize, Against), f64)> {
-    let points = skeleton(&scene.arm, q);
+fn clearances(scene: &Scene, q: &[f64]) -> Vec<((usize, Against), f64)> {
+    let points = skeleton(scene.arm(), q);
     let links: Vec<[P; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let width = scene.arm.half_width();
+    let width = scene.arm().half_width();
     let mut found = Vec::new();
     for (i, link) in links.iter().enumerate() {
-        for (o, obstacle) in scene.obstacles.iter().enumerate() {
+        for (o, obstacle) in scene.obstacles().iter().enumerate() {
             let key = (i + 1, Against::Obstacle(o));
             found.push((key, distance::distance(obstacle, link[0], link[1]) - width));
         }
-        if scene.arm.self_collision() {
+        if scene.arm().self_collision() {
             for (other, before) in links.iter().enumerate().take(i.saturating_sub(1)) {
                 found.push(((i + 1, Against::Link(other + 1)), between(*before, *link) - 2.0 * width));
             }
@@ -84,40 +83,38 @@ fn clearances(scene: &Scene<PlanarArm>, q: &[f64]) -> Vec<((usize, Against), f64
     found
 }
 
-fn random_scene(numbers: &mut Numbers) -> Scene<PlanarArm> {
+fn random_scene(numbers: &mut Numbers) -> Scene {
     let links = 2 + numbers.below(7);
     let lengths: Vec<f64> = (0..links).map(|_| numbers.within(0.1, 0.4)).collect();
     let half_width = [0.0, 0.005, 0.03][numbers.below(3)];
     let base = Point::new(numbers.within(-0.2, 0.2), numbers.within(-0.2, 0.2));
     let reach: f64 = lengths.iter().sum();
-    let arm = PlanarArm::new(base, lengths, half_width, vec![FREE; links], numbers.below(3) > 0).unwrap();
+    let arm = Arm::new(base, lengths, half_width, vec![FREE; links], numbers.below(3) > 0).unwrap();
     let obstacles = (0..numbers.below(4))
         .map(|_| {
             let (way, angle) = (numbers.within(0.1, 1.1) * reach, numbers.within(-PI, PI));
             let center = Point::new(base.x + way * angle.cos(), base.y + way * angle.sin());
-            let shape = match numbers.below(3) {
-                0 => Shape::Circle(Circle { center, radius: numbers.within(1e-4, 0.2) }),
+            match numbers.below(3) {
+                0 => build::circle(center.x, center.y, numbers.within(1e-4, 0.2)),
                 1 => {
                     let corners = 3 + numbers.below(5);
                     let corner = |i: usize| {
                         let turn = (i as f64 + numbers.within(0.1, 0.9)) / corners as f64 * 2.0 * PI;
                         let radius = numbers.within(0.03, 0.2);
-                        Point::new(center.x + radius * turn.cos(), center.y + radius * turn.sin())
+                        [center.x + radius * turn.cos(), center.y + radius * turn.sin()]
                     };
-                    Shape::Polygon(Polygon::new((0..corners).map(corner).collect()).unwrap())
+                    build::polygon(&(0..corners).map(corner).collect::<Vec<_>>())
                 }
                 _ => {
                     // A wall a tenth of a millimetre thick.
-                    let end = Point::new(center.x + numbers.within(-0.3, 0.3), center.y + 0.1);
-                    let thick = Point::new(center.x + 1e-4, center.y);
-                    Shape::Polygon(Polygon::new(vec![center, thick, end]).unwrap())
+                    let end = [center.x + numbers.within(-0.3, 0.3), center.y + 0.1];
+                    let thick = [center.x + 1e-4, center.y];
+                    build::polygon(&[[center.x, center.y], thick, end])
                 }
-            };
-            Obstacle { name: None, shape }
+            }
         })
         .collect();
-    let grid = Grid::new([-2.0, 2.0], [-2.0, 2.0], 0.5).unwrap();
-    Scene { arm, grid, obstacles, tasks: Vec::new() }
+    build::scene(arm, obstacles)
 }
 
 fn random_motion(numbers: &mut Numbers, joints: usize) -> Motion {
@@ -131,7 +128,7 @@ fn random_motion(numbers: &mut Numbers, joints: usize) -> Motion {
     Motion::new(quintic_through(&vias, &durations_by_length(&vias, numbers.within(0.5, 10.0)))).unwrap()
 }
 
-fn judged<A: Arm>(scene: &Scene<A>, motion: &Motion) -> Verdict {
+fn judged(scene: &Scene, motion: &Motion) -> Verdict {
     verify(scene, motion, &VerifySettings::default())
 }
 
@@ -152,7 +149,7 @@ fn the_sampler_agrees(seed: u64, cases: usize) -> [usize; 3] {
     let mut counts = [0; 3];
     for case in 0..cases {
         let scene = random_scene(&mut numbers);
-        let motion = random_motion(&mut numbers, scene.arm.lengths().len());
+        let motion = random_motion(&mut numbers, scene.arm().links());
         let verdict = judged(&scene, &motion);
         let mut least: Vec<((usize, Against), f64)> = Vec::new();
         for i in 0..=SAMPLES {
@@ -206,23 +203,32 @@ fn the_sampler_agrees(seed: u64, cases: usize) -> [usize; 3] {
                 }
             }
         }
-        assert_eq!(verdict.joint_margins.len(), scene.arm.lengths().len());
+        assert_eq!(verdict.joint_margins.len(), scene.arm().links());
     }
     counts
 }
 
 #[test]
-fn two_links_as_a_chain_get_the_same_verdict_bit_for_bit() {
+fn the_closed_forms_of_two_links_are_those_of_the_chain_bit_for_bit() {
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(5));
-    for _ in 0..300 {
+    for case in 0..3000 {
         let scene = random_scene(&mut numbers);
-        let lengths = [scene.arm.lengths()[0], scene.arm.lengths()[1]];
-        let two = TwoLinkArm::new(scene.arm.base(), lengths, scene.arm.half_width(), [FREE; 2]).unwrap();
-        let two = Scene { arm: two, grid: scene.grid, obstacles: scene.obstacles, tasks: Vec::new() };
-        let motion = random_motion(&mut numbers, 2);
-        let as_text = |verdict: Verdict| format!("{verdict:?}");
-        assert_eq!(as_text(judged(&two, &motion)), as_text(judged(&two.planar(), &motion)));
-        assert_eq!(two.planar().two_link().unwrap(), two);
+        assert_eq!(scene.two_link().is_ok(), scene.arm().links() == 2);
+        let chain = scene.arm();
+        let joints = [FREE, build::joint(build::stops(-2.0, 2.5))];
+        let joints = [joints[case % 2], joints[case / 2 % 2]].to_vec();
+        let lengths = chain.lengths()[..2].to_vec();
+        let arm = Arm::new(chain.base(), lengths, chain.half_width(), joints, false).unwrap();
+        let two = arm.two_link().unwrap();
+        assert_eq!((two.base(), two.half_width()), (arm.base(), arm.half_width()));
+        assert_eq!((&two.lengths()[..], &two.joints()[..]), (arm.lengths(), arm.joints()));
+        let mut pair = || [numbers.within(-4.0, 4.0), numbers.within(-4.0, 4.0)];
+        let (q, to) = (pair(), pair());
+        assert_eq!(two.tip(&q), arm.tip(&q));
+        assert!([two.elbow(&q), two.tip(&q)].into_iter().eq(arm.link_ends(&q)));
+        assert!(two.link_segments(&q).into_iter().eq(arm.link_segments(&q)));
+        assert_eq!(two.within_limits(&q), arm.within_limits(&q));
+        assert_eq!(arm.difference(&q, &to), two.difference(&q, &to)[..]);
     }
 }
 
@@ -230,14 +236,9 @@ fn two_links_as_a_chain_get_the_same_verdict_bit_for_bit() {
 fn a_link_that_turns_back_on_the_arm_touches_it_when_it_should() {
     // Three links of 1 m: joints 2 and 3 turn so that the third crosses the first.
     let arm = |half_width, self_collision| {
-        PlanarArm::new(Point::new(0.0, 0.0), vec![1.0; 3], half_width, vec![FREE; 3], self_collision).unwrap()
+        Arm::new(Point::new(0.0, 0.0), vec![1.0; 3], half_width, vec![FREE; 3], self_collision).unwrap()
     };
-    let scene = |arm| Scene {
-        arm,
-        grid: Grid::new([-2.0, 2.0], [-2.0, 2.0], 0.5).unwrap(),
-        obstacles: Vec::new(),
-        tasks: Vec::new(),
-    };
+    let scene = |arm| build::scene(arm, Vec::new());
     // A triangle closes at 120 degrees: before, by symmetry of joints 2 and 3, the tip's distance from the first link is
     // that of a closed form; q2 = q3 = t from 0 to 2.2 rad.
     let from = State::rest(&[0.3, 0.0, 0.0]);
@@ -261,7 +262,7 @@ fn a_motion_of_another_arm_is_refused() {
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(6));
     let scene = loop {
         let scene = random_scene(&mut numbers);
-        if scene.arm.lengths().len() == 5 {
+        if scene.arm().links() == 5 {
             break scene;
         }
     };
@@ -277,7 +278,7 @@ fn certified_turns_are_free_and_refused_ones_come_near() {
     let (mut free, mut refused) = (0, 0);
     for case in 0..3000 {
         let scene = random_scene(&mut numbers);
-        let links = scene.arm.lengths().len();
+        let links = scene.arm().links();
         let spread = [0.05, 0.5, 2.0][case % 3];
         let from = numbers.angles(links, 1.5);
         let to: Vec<f64> =
@@ -289,19 +290,19 @@ fn certified_turns_are_free_and_refused_ones_come_near() {
             })
             .map(|(_, clearance)| clearance)
             .fold(f64::INFINITY, f64::min);
-        if turn_is_free(&scene, &from, &to) {
+        if straight_move_is_free(&scene, &from, &to) {
             free += 1;
             assert!(least > 0.0, "case {case}: {least}");
         } else {
             refused += 1;
             // Between two samples a point of the arm moves by no more than its reach times the joints' turns.
             let turn: f64 = from.iter().zip(&to).map(|(a, b)| (b - a).abs()).sum();
-            let reach: f64 = scene.arm.lengths().iter().sum();
+            let reach: f64 = scene.arm().lengths().iter().sum();
             assert!(least < reach * turn / 400.0 + 1e-6, "case {case}: {least}");
         }
         assert_eq!(
-            turn_is_free(&scene, &from, &to),
-            turn_is_free(&scene, &to, &from),
+            straight_move_is_free(&scene, &from, &to),
+            straight_move_is_free(&scene, &to, &from),
             "case {case}: both ways are one"
         );
     }
@@ -312,8 +313,8 @@ fn certified_turns_are_free_and_refused_ones_come_near() {
 fn kinematics_are_those_of_the_textbook() {
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(8));
     for _ in 0..3000 {
-        let arm = random_scene(&mut numbers).arm;
-        let q = numbers.angles(arm.lengths().len(), 3.0);
+        let arm = random_scene(&mut numbers).arm().clone();
+        let q = numbers.angles(arm.links(), 3.0);
         let points = skeleton(&arm, &q);
         for (end, [x, y]) in arm.link_ends(&q).zip(&points[1..]) {
             assert!(end.distance(Point::new(*x, *y)) < 1e-14 * 10.0);
@@ -322,13 +323,13 @@ fn kinematics_are_those_of_the_textbook() {
             let moved = |by: f64| {
                 let mut q = q.clone();
                 q[j] += by;
-                arm.tip_at(&q)
+                arm.tip(&q)
             };
             let slope = (moved(1e-6) - moved(-1e-6)) * 5e5;
             assert!((slope.x - column.x).hypot(slope.y - column.y) < 1e-8);
         }
         let [nearest, farthest] = arm.reach();
-        let distance = arm.tip_at(&q).distance(arm.base());
+        let distance = arm.tip(&q).distance(arm.base());
         assert!(distance >= nearest - 1e-12 && distance <= farthest + 1e-12);
     }
 }
@@ -338,28 +339,27 @@ fn the_nearest_inverse_puts_the_tip_where_it_shall_be_within_the_stops() {
     let mut numbers = Numbers(ChaCha8Rng::seed_from_u64(9));
     let mut found = 0;
     for _ in 0..2000 {
-        let free = random_scene(&mut numbers).arm;
-        let links = free.lengths().len();
-        let bend = JointLimits::range(-2.5, 2.5).unwrap();
-        let joints = vec![Joint { limits: bend, ..FREE }; links];
-        let arm = PlanarArm::new(free.base(), free.lengths().to_vec(), 0.0, joints, false).unwrap();
-        let tip = arm.tip_at(&numbers.angles(links, 2.4));
+        let free = random_scene(&mut numbers).arm().clone();
+        let links = free.links();
+        let joints = vec![build::joint(build::stops(-2.5, 2.5)); links];
+        let arm = Arm::new(free.base(), free.lengths().to_vec(), 0.0, joints, false).unwrap();
+        let tip = arm.tip(&numbers.angles(links, 2.4));
         if let Some(q) = arm.inverse_near(tip, &numbers.angles(links, 2.4)) {
             found += 1;
-            assert!(arm.tip_at(&q).distance(tip) <= 1.1e-12 * arm.reach()[1]);
-            assert!(arm.allows(&q));
+            assert!(arm.tip(&q).distance(tip) <= 1.1e-12 * arm.reach()[1]);
+            assert!(arm.within_limits(&q));
         }
     }
     assert!(found > 1500, "{found} of 2000");
-    let arm = random_scene(&mut numbers).arm;
+    let arm = random_scene(&mut numbers).arm().clone();
     let far = Point::new(arm.base().x + 2.0 * arm.reach()[1], arm.base().y);
-    assert_eq!(arm.inverse_near(far, &numbers.angles(arm.lengths().len(), 1.0)), None);
+    assert_eq!(arm.inverse_near(far, &numbers.angles(arm.links(), 1.0)), None);
 }
 
 #[test]
 fn measures_that_make_no_arm_are_named() {
     let arm = |lengths: Vec<f64>, joints: usize, half_width: f64| {
-        PlanarArm::new(Point::new(0.0, 0.0), lengths, half_width, vec![FREE; joints], true)
+        Arm::new(Point::new(0.0, 0.0), lengths, half_width, vec![FREE; joints], true)
     };
     assert_eq!(arm(vec![1.0], 1, 0.0), Err(ArmError::Links { found: 1 }));
     assert_eq!(arm(vec![1.0; 65], 65, 0.0), Err(ArmError::Links { found: 65 }));

@@ -2,19 +2,18 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
 
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
+
 use std::f64::consts::PI;
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
-use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use build::{circle, polygon};
+use elbowroom::arm::{Arm, Joint, JointLimits};
+use elbowroom::geometry::Point;
+use elbowroom::scene::{Scene, Shape};
 use elbowroom::trajectory::{Motion, durations_by_length, quintic_through, vias_at};
 use elbowroom::verify::{Against, FLOOR, Verdict, VerifySettings, Violation, verify};
-
-const FREE: Joint = Joint {
-    limits: JointLimits::Continuous,
-    motion: MotionLimits { velocity: None, acceleration: None, jerk: None },
-};
 
 /// Seeded uniform numbers.
 struct Numbers(u64);
@@ -32,15 +31,6 @@ impl Numbers {
     fn below(&mut self, count: usize) -> usize {
         (self.unit() * count as f64) as usize
     }
-}
-
-fn circle(x: f64, y: f64, radius: f64) -> Obstacle {
-    Obstacle { name: None, shape: Shape::Circle(Circle { center: Point::new(x, y), radius }) }
-}
-
-fn polygon(vertices: &[[f64; 2]]) -> Obstacle {
-    let vertices = vertices.iter().map(|&[x, y]| Point::new(x, y)).collect();
-    Obstacle { name: None, shape: Shape::Polygon(Polygon::new(vertices).unwrap()) }
 }
 
 fn judged(scene: &Scene, motion: &Motion) -> Verdict {
@@ -104,15 +94,19 @@ fn sample_time(motion: &Motion, i: usize) -> f64 {
 
 impl DenseJudge {
     fn new(scene: &Scene) -> Self {
-        let shapes = scene.obstacles.iter().map(|obstacle| match &obstacle.shape {
+        let shapes = scene.obstacles().iter().map(|obstacle| match &obstacle.shape {
             Shape::Circle(c) => JudgeShape::Disc([c.center.x, c.center.y], c.radius),
             Shape::Polygon(p) => JudgeShape::Polygon(p.vertices().iter().map(|v| [v.x, v.y]).collect()),
         });
+        Self::among(scene.arm(), shapes.collect())
+    }
+
+    fn among(arm: &Arm, shapes: Vec<JudgeShape>) -> Self {
         Self {
-            base: [scene.arm.base().x, scene.arm.base().y],
-            lengths: scene.arm.lengths(),
-            half_width: scene.arm.half_width(),
-            shapes: shapes.collect(),
+            base: [arm.base().x, arm.base().y],
+            lengths: arm.lengths().try_into().unwrap(),
+            half_width: arm.half_width(),
+            shapes,
         }
     }
 
@@ -217,15 +211,12 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
     let base = Point::new(numbers.between(-0.5, 0.5), numbers.between(-0.5, 0.5));
     let joints = [0, 1].map(|_| {
         if numbers.below(2) == 0 {
-            FREE
+            Joint::CONTINUOUS
         } else {
-            Joint {
-                limits: JointLimits::range(numbers.between(-4.0, -2.0), numbers.between(2.0, 4.0)).unwrap(),
-                ..FREE
-            }
+            build::joint(build::stops(numbers.between(-4.0, -2.0), numbers.between(2.0, 4.0)))
         }
     });
-    let arm = TwoLinkArm::new(base, lengths, half_width, joints).unwrap();
+    let arm = Arm::new(base, lengths.to_vec(), half_width, joints.to_vec(), false).unwrap();
     let reach = lengths[0] + lengths[1];
     let obstacles = (0..1 + numbers.below(4))
         .map(|_| {
@@ -260,14 +251,13 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
             }
         })
         .collect();
-    let grid = Grid::new([-2.0, 2.0], [-2.0, 2.0], 0.5).unwrap();
-    Scene { arm, grid, obstacles, tasks: Vec::new() }
+    build::scene(arm, obstacles)
 }
 
 fn random_motion(numbers: &mut Numbers) -> Motion {
     let spread = if numbers.below(3) == 0 { 0.4 } else { 2.5 };
-    let places: Vec<Configuration<2>> = (0..2 + numbers.below(5))
-        .map(|_| Configuration([numbers.between(-spread, spread), numbers.between(-spread, spread)]))
+    let places: Vec<[f64; 2]> = (0..2 + numbers.below(5))
+        .map(|_| [numbers.between(-spread, spread), numbers.between(-spread, spread)])
         .collect();
     let vias = vias_at(&places);
     Motion::new(quintic_through(&vias, &durations_by_length(&vias, numbers.between(0.5, 20.0)))).unwrap()
@@ -292,7 +282,7 @@ fn the_dense_judge_agrees(seed: u64, cases: usize) {
         let judge = DenseJudge::new(&scene);
         let axes: Vec<_> = (0..=SAMPLES).map(|i| judge.axes(&motion, sample_time(&motion, i))).collect();
         let mut least = f64::INFINITY;
-        for obstacle in 0..scene.obstacles.len() {
+        for obstacle in 0..scene.obstacles().len() {
             for link in 0..2 {
                 let (clearance, first) = judge.sweep(&motion, &axes, link, obstacle);
                 least = least.min(clearance);
@@ -351,13 +341,12 @@ fn a_micrometre_is_told_from_contact_on_random_motions() {
     let mut numbers = Numbers(3);
     let mut cases = 0;
     while cases < 300 {
-        let (mut scene, motion) = (random_scene(&mut numbers), random_motion(&mut numbers));
+        let (scene, motion) = (random_scene(&mut numbers), random_motion(&mut numbers));
         let (way, angle) = (numbers.between(0.2, 2.0), numbers.between(-PI, PI));
         let center = [way * angle.cos(), way * angle.sin()];
-        scene.arm = TwoLinkArm::new(scene.arm.base(), scene.arm.lengths(), scene.arm.half_width(), [FREE; 2])
-            .unwrap();
-        scene.obstacles = vec![circle(center[0], center[1], 0.0)];
-        let judge = DenseJudge::new(&scene);
+        let (arm, joints) = (scene.arm(), vec![Joint::CONTINUOUS; 2]);
+        let arm = Arm::new(arm.base(), arm.lengths().to_vec(), arm.half_width(), joints, false).unwrap();
+        let judge = DenseJudge::among(&arm, vec![JudgeShape::Disc(center, 0.0)]);
         let axes: Vec<_> = (0..=SAMPLES).map(|i| judge.axes(&motion, sample_time(&motion, i))).collect();
         let least = judge.least(&motion, &axes, 0);
         if least < 0.01 {
@@ -366,7 +355,7 @@ fn a_micrometre_is_told_from_contact_on_random_motions() {
         cases += 1;
         // Blow the point up until so much is left.
         for (gap, safe) in [(1e-6, true), (0.9 * FLOOR, false), (0.0, false), (-1e-8, false)] {
-            scene.obstacles = vec![circle(center[0], center[1], least - gap)];
+            let scene = build::scene(arm.clone(), vec![circle(center[0], center[1], least - gap)]);
             let verdict = judged(&scene, &motion);
             assert_eq!(verdict.is_safe(), safe, "case {cases} {gap} {least} {verdict:?}");
             let nearest = verdict.least_clearance.unwrap();
@@ -402,7 +391,7 @@ fn agree_on_joint(scene: &Scene, motion: &Motion, verdict: &Verdict, joint: usiz
         .violations
         .iter()
         .any(|v| matches!(v, Violation::JointLimit { joint: j, .. } if *j == joint + 1));
-    match scene.arm.joints()[joint].limits {
+    match scene.arm().joints()[joint].limits {
         JointLimits::Continuous => assert!(!beyond && verdict.joint_margins[joint].is_none()),
         JointLimits::Range { min, max } => {
             let sampled = (range[0] - min).min(max - range[1]);

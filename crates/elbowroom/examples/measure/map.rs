@@ -7,11 +7,12 @@ use super::{Outcome, runs, scenes};
 /// The maps of both postures; writes a byte a point, 1 for free, elbow-up first; `-` for no file.
 pub(crate) fn measure(file: &str, points: usize, runs: usize, out: &str) -> Outcome {
     let scene = scenes::load(file, points)?;
-    let (times, space) = runs::times(runs, || FreeSpace::of(&scene));
+    let scene = scene.two_link()?;
+    let (times, space) = runs::times(runs, || FreeSpace::of(scene));
     if out != "-" {
         let bytes: Vec<u8> = Posture::ALL
             .iter()
-            .flat_map(|&posture| (0..scene.grid.len()).map(move |cell| (posture, cell)))
+            .flat_map(|&posture| (0..scene.grid().len()).map(move |cell| (posture, cell)))
             .map(|(posture, cell)| u8::from(space.map(posture).is_free(cell)))
             .collect();
         std::fs::write(out, bytes)?;

@@ -1,7 +1,6 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use elbowroom::arm::Configuration;
 use elbowroom::free_space::{FreeSpace, configurations};
 use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::online::{NoRoute, Roadmap, Route, Upkeep};
@@ -57,8 +56,8 @@ fn follow(
     points: usize,
     [updates, compare]: [usize; 2],
 ) -> Result<(Value, Times), Box<dyn std::error::Error>> {
-    let mut scene = scenes::load(file, points)?;
-    let task = scene.tasks.first().ok_or("the scene has no task")?.clone();
+    let scene = scenes::load(file, points)?;
+    let task = scene.tasks().first().ok_or("the scene has no task")?.clone();
     let upkeep = match upkeep {
         "cheaper" => Upkeep::Cheaper,
         "repair" => Upkeep::Repair,
@@ -68,40 +67,43 @@ fn follow(
     let mut rng = ChaCha8Rng::seed_from_u64(6);
     let mut unit = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let one_by_one = moving == "each";
-    let moving = if one_by_one { scene.obstacles.len() } else { moving.parse()? };
-    let reach: f64 = scene.arm.lengths().iter().sum();
-    while scene.obstacles.len() < moving {
+    let mut obstacles = scene.obstacles().to_vec();
+    let moving = if one_by_one { obstacles.len() } else { moving.parse()? };
+    let [_, reach] = scene.arm().reach();
+    while obstacles.len() < moving {
         let away = Vector::polar(reach * (0.3 + 0.7 * unit()), TAU * unit());
-        let disc = Circle::new(scene.arm.base() + away, RADIUS)?;
-        scene.obstacles.push(Obstacle { name: None, shape: Shape::Circle(disc) });
+        let disc = Circle::new(scene.arm().base() + away, RADIUS)?;
+        obstacles.push(Obstacle::still(Shape::Circle(disc)));
     }
+    let scene = scene.with_obstacles(obstacles)?;
     let mut headings: Vec<f64> = (0..moving).map(|_| TAU * unit()).collect();
-    let first_at: Vec<Point> = scene.obstacles.iter().map(middle).collect();
-    let home = configurations(&scene, &task.start)?[0];
+    let first_at: Vec<Point> = scene.obstacles().iter().map(middle).collect();
+    let home = configurations(scene.two_link()?, &task.start)?[0];
     let mut roadmap = Roadmap::new(scene, &task)?.with_upkeep(upkeep);
     let mut q = home;
     let mut route = roadmap.path_from(&q);
     let mut times: Times = Default::default();
     let (mut routes, mut anew, mut nodes, mut cells, mut most_expansions) = (0, 0, 0, 0, 0);
     for update in 0..updates {
-        let mut obstacles = roadmap.scene().obstacles.clone();
+        let mut obstacles = roadmap.scene().obstacles().to_vec();
         for (index, heading) in headings.iter_mut().enumerate() {
             if one_by_one && index != update % moving {
                 continue;
             }
             *heading += 0.6 * (unit() - 0.5);
-            let moved = shifted(&obstacles[index], Vector::polar(roadmap.scene().grid.step(), *heading))?;
+            let moved = shifted(&obstacles[index], Vector::polar(roadmap.scene().grid().step(), *heading))?;
             if middle(&moved).distance(first_at[index]) > WANDER {
                 *heading += TAU / 2.0;
             } else {
                 obstacles[index] = moved;
             }
         }
-        let before = roadmap.scene().obstacles.clone();
+        let before = roadmap.scene().obstacles().to_vec();
         let mut space = roadmap.space().clone();
         let begun = roadmap.expansions();
-        let updated = timed(&mut times[2], || roadmap.move_obstacles(obstacles));
-        timed(&mut times[0], || space.refill(&before, roadmap.scene()));
+        let updated = timed(&mut times[2], || roadmap.move_obstacles(obstacles))?;
+        let now = roadmap.scene().two_link()?;
+        timed(&mut times[0], || space.refill(&before, now));
         route = timed(&mut times[3], || roadmap.path_from(&q));
         let begun = if updated.repaired.is_none() { 0 } else { begun };
         most_expansions = most_expansions.max(roadmap.expansions() - begun);
@@ -109,14 +111,15 @@ fn follow(
         anew += usize::from(updated.repaired.is_none());
         routes += usize::from(route.is_ok());
         if update.is_multiple_of(compare) {
-            let now = roadmap.scene().clone();
-            let map = timed(&mut times[1], || FreeSpace::of(&now));
+            let scene = roadmap.scene().clone();
+            let now = scene.two_link()?;
+            let map = timed(&mut times[1], || FreeSpace::of(now));
             assert!(map == *roadmap.space() && map == space, "the maps differ");
-            let judge = timed(&mut times[4], || from_scratch(now, &task, &q))?;
+            let judge = timed(&mut times[4], || from_scratch(scene.clone(), &task, &q))?;
             assert_eq!(cost(&judge), cost(&route), "the costs differ");
         }
         q = match &route {
-            Ok(route) if route.path.0.len() > 2 => route.path.0[1],
+            Ok(route) if route.path.0.len() > 2 => [route.path.0[1][0], route.path.0[1][1]],
             _ => home,
         };
     }
@@ -133,9 +136,9 @@ fn follow(
 /// times.
 pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
     let scene = scenes::load(file, points)?;
-    let task = scene.tasks.first().ok_or("the scene has no task")?.clone();
-    let q = configurations(&scene, &task.start)?[0];
-    let home = scene.obstacles.clone();
+    let task = scene.tasks().first().ok_or("the scene has no task")?.clone();
+    let q = configurations(scene.two_link()?, &task.start)?[0];
+    let home = scene.obstacles().to_vec();
     let mut found = serde_json::Map::new();
     for to_path in [true, false] {
         let work = |roadmap: &mut Roadmap| {
@@ -148,14 +151,15 @@ pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
             let mut obstacles = home.clone();
             let which = (index / 2) % home.len();
             if index % 2 == 0 {
-                let way = Vector::polar(scene.grid.step(), TAU * 0.618 * (index / 2) as f64);
+                let way = Vector::polar(scene.grid().step(), TAU * 0.618 * (index / 2) as f64);
                 obstacles[which] = shifted(&obstacles[which], way)?;
             }
-            let now = Scene { obstacles: obstacles.clone(), ..scene.clone() };
+            let now = scene.with_obstacles(obstacles.clone())?;
             timed(&mut repairs, || {
-                roadmap.move_obstacles(obstacles);
+                let moved = roadmap.move_obstacles(obstacles);
                 work(&mut roadmap);
-            });
+                moved
+            })?;
             let fresh = timed(&mut rebuilds, || {
                 Roadmap::new(now, &task).map(|mut fresh| {
                     work(&mut fresh);
@@ -182,7 +186,7 @@ pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
     Ok(found.into())
 }
 
-fn from_scratch(scene: Scene, task: &Task, q: &Configuration<2>) -> Result<Result<Route, NoRoute>, String> {
+fn from_scratch(scene: Scene, task: &Task, q: &[f64; 2]) -> Result<Result<Route, NoRoute>, String> {
     let mut roadmap = Roadmap::new(scene, task).map_err(|error| error.to_string())?;
     Ok(roadmap.path_from(q))
 }

@@ -18,8 +18,8 @@ pub(crate) fn measure([file, task, planner, objective]: [&str; 4], points: usize
         .into_iter()
         .find(|known| known.name() == objective)
         .ok_or("no such objective")?;
-    let settings = PlanSettings { planner, objective, ..PlanSettings::default() };
-    let (times, found) = runs::times(runs, || plan(&scene, task, &settings, &Unwatched));
+    let settings = PlanSettings { objective, ..PlanSettings::default() };
+    let (times, found) = runs::times(runs, || plan(&scene, task, &planner, &settings, &Unwatched));
     let found = found?;
     Ok(json!({
         "times_ms": times,

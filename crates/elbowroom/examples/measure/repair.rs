@@ -1,6 +1,6 @@
 use elbowroom::free_space::FreeSpace;
 use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::scene::{Place, Scene, Shape};
+use elbowroom::scene::{Place, Scene, Shape, TwoLinkError};
 use elbowroom::search::{Graph, Lattice, Progress, Until};
 use serde_json::json;
 
@@ -11,14 +11,14 @@ use super::{Outcome, runs, scenes};
 /// obstacle, for the first task. The maps themselves are not part of the times.
 pub(crate) fn measure(file: &str, points: usize, runs: usize) -> Outcome {
     let scene = scenes::load(file, points)?;
-    let task = scene.tasks.first().ok_or("the scene has no task")?;
+    let task = scene.tasks().first().ok_or("the scene has no task")?;
     let [start, goal] = [&task.start, &task.goal].map(|place| cell_of(&scene, place));
     let (start, goal) = (start.ok_or("no tip start")?, goal.ok_or("no tip goal")?);
-    let before = union(&scene);
+    let before = union(&scene)?;
     let field = from_scratch(&before, goal)?;
     let mut found = Vec::new();
-    for obstacle in 0..scene.obstacles.len() {
-        let after = union(&moved(&scene, obstacle)?);
+    for obstacle in 0..scene.obstacles().len() {
+        let after = union(&moved(&scene, obstacle)?)?;
         if !after.is_free(goal) {
             continue;
         }
@@ -52,29 +52,29 @@ pub(crate) fn measure(file: &str, points: usize, runs: usize) -> Outcome {
 }
 
 /// Where the tip may stand in some posture.
-fn union(scene: &Scene) -> Lattice {
-    let space = FreeSpace::of(scene);
-    let free = (0..scene.grid.len()).map(|cell| space.union_is_free(cell)).collect();
-    Lattice::new(scene.grid.columns(), 1.0, free)
+fn union(scene: &Scene) -> Result<Lattice, TwoLinkError> {
+    let space = FreeSpace::of(scene.two_link()?);
+    let free = (0..scene.grid().len()).map(|cell| space.union_is_free(cell)).collect();
+    Ok(Lattice::new(scene.grid().columns(), 1.0, free))
 }
 
 /// The scene with one obstacle a grid step to the right.
 fn moved(scene: &Scene, obstacle: usize) -> Result<Scene, Box<dyn std::error::Error>> {
-    let right = |point: Point| Point::new(point.x + scene.grid.step(), point.y);
-    let mut scene = scene.clone();
-    let shape = match &scene.obstacles[obstacle].shape {
+    let right = |point: Point| Point::new(point.x + scene.grid().step(), point.y);
+    let mut obstacles = scene.obstacles().to_vec();
+    let shape = match &obstacles[obstacle].shape {
         Shape::Circle(circle) => Shape::Circle(Circle::new(right(circle.center), circle.radius)?),
         Shape::Polygon(polygon) => {
             Shape::Polygon(Polygon::new(polygon.vertices().iter().copied().map(right).collect())?)
         }
     };
-    scene.obstacles[obstacle].shape = shape;
-    Ok(scene)
+    obstacles[obstacle].shape = shape;
+    Ok(scene.with_obstacles(obstacles)?)
 }
 
 fn cell_of(scene: &Scene, place: &Place) -> Option<usize> {
     match place {
-        Place::Tip(point) => scene.grid.nearest(*point),
+        Place::Tip(point) => scene.grid().nearest(*point),
         Place::Configuration(_) => None,
     }
 }

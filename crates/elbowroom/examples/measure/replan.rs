@@ -2,12 +2,11 @@ use std::error::Error;
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
-use elbowroom::arm::Configuration;
 use elbowroom::free_space::configurations;
-use elbowroom::geometry::{Circle, Point, Segment, Vector};
-use elbowroom::online::{Decision, Replanner};
-use elbowroom::path::clearances;
-use elbowroom::scene::{Course, Mover, Obstacle, Place, Scene, Shape, Sight, Waypoint};
+use elbowroom::geometry::{Circle, Segment, Vector};
+use elbowroom::online::{Decision, KnownMotion, Replanner, World};
+use elbowroom::path::link_clearances;
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Shape, Sight, Waypoint};
 use elbowroom::trajectory::State;
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -68,41 +67,44 @@ pub(crate) fn measure(file: &str, points: usize, run: &Run) -> Outcome {
     Ok(found)
 }
 
-/// A disc that moves: its number among the obstacles, and where it goes.
-type Flight = (usize, Vec<Waypoint>);
-
 /// Times (ms) of all updates, of those that were compared, and of the same from scratch.
 type Times = [Vec<f64>; 3];
 
 fn follow(file: &str, points: usize, run: &Run) -> Result<(Value, Times), Box<dyn Error>> {
-    let mut scene = scenes::load(file, points)?;
-    let task = scene.tasks.first().ok_or("the scene has no task")?.clone();
-    let ends = [&task.start, &task.goal].map(|place| configurations(&scene, place));
-    let ends = [ends[0].clone()?[0], ends[1].clone()?[0]];
-    let courses = courses(&mut scene, run)?;
-    let goals = ends.map(|end| Place::Configuration(end.0.to_vec()));
-    let movers = known(&courses, 0.0)?;
-    let replanner = |goal: &Place| Replanner::new(scene.clone(), &movers, ends[0], goal, 1);
+    let scene = scenes::load(file, points)?;
+    let task = scene.tasks().first().ok_or("the scene has no task")?;
+    let ends = [&task.start, &task.goal].map(|place| Ok(configurations(scene.two_link()?, place)?[0]));
+    let [start, goal]: [Result<[f64; 2], Box<dyn Error>>; 2] = ends;
+    let ends = [start?, goal?];
+    let scene = among_discs(&scene, run)?;
+    let goals = ends.map(|end| Place::Configuration(end.into()));
+    let replanner = |goal: &Place| Replanner::new(scene.clone(), ends[0], goal, 1);
     let mut replanners = [replanner(&goals[0])?, replanner(&goals[1])?];
-    let mut state = State::rest(&ends[0].0);
+    let mut state = State::rest(&ends[0]);
     let (mut towards, mut arrivals, mut unsafe_updates, mut contacts, mut stops) = (1, 0, 0, 0, 0);
     let mut times: Times = Default::default();
     let mut memory = Vec::new();
+    let mut world = World::new(scene.clone());
     let mut largest: f64 = 0.0;
     let ticks = (run.seconds / TICK).round() as usize;
     for tick in 0..ticks {
         let now = TICK * tick as f64;
-        let movers = known(&courses, now)?;
+        let known = known(&scene, now)?;
         let began = Instant::now();
         let until = run.deadline.map(|deadline| Duration::from_secs_f64(deadline * 1e-3));
         let update = replanners[towards]
-            .update(&movers, now, &state, &|| until.is_none_or(|until| began.elapsed() < until));
+            .update(&known, now, &state, &|| until.is_none_or(|until| began.elapsed() < until))?;
         let took = began.elapsed().as_secs_f64() * 1e3;
         times[0].push(took);
         unsafe_updates += usize::from(!update.verdict.is_safe());
         stops += usize::from(matches!(update.decision, Decision::Stop(_)));
         // What was followed before, against what is planned from here on.
-        if let Decision::New(motion) | Decision::Stop(motion) = &update.decision {
+        let planned = match &update.decision {
+            Decision::New(trajectory) => Some(trajectory.motion()),
+            Decision::Stop(motion) => Some(motion),
+            _ => None,
+        };
+        if let Some(motion) = planned {
             let begin = motion.at(now);
             let pairs = [
                 (&begin.position, &state.position),
@@ -114,11 +116,11 @@ fn follow(file: &str, points: usize, run: &Run) -> Result<(Value, Times), Box<dy
             }
         }
         if tick % COMPARE == 9 {
-            let here = Configuration([state.position[0], state.position[1]]);
+            let here = [state.position[0], state.position[1]];
             let began = Instant::now();
-            let scratch = Replanner::new(scene.clone(), &movers, here, &goals[towards], 1);
+            let scratch = Replanner::new(scene.clone(), here, &goals[towards], 1);
             if let Ok(mut scratch) = scratch {
-                scratch.update(&movers, now, &state, &|| true);
+                scratch.update(&known, now, &state, &|| true)?;
                 times[2].push(began.elapsed().as_secs_f64() * 1e3);
                 times[1].push(took);
             }
@@ -126,12 +128,11 @@ fn follow(file: &str, points: usize, run: &Run) -> Result<(Value, Times), Box<dy
         if tick % ticks.div_ceil(LOOKS_AT_MEMORY) == 0 || tick + 1 == ticks {
             memory.push(json!({ "at_s": now, "resident_mib": resident() }));
         }
-        let motion = replanners[towards].motion();
         let next = now + TICK;
-        let is_there = replanners[towards].reaches_goal() && next > motion.end();
-        state = motion.at(next);
-        contacts += usize::from(is_touched(&scene, &courses, next, &state));
-        if is_there {
+        state = replanners[towards].motion().at(next);
+        world.advance(next, &state.position);
+        contacts += usize::from(is_touched(&world, &state)?);
+        if replanners[towards].is_at_goal(&state) {
             arrivals += 1;
             towards = 1 - towards;
         }
@@ -143,14 +144,14 @@ fn follow(file: &str, points: usize, run: &Run) -> Result<(Value, Times), Box<dy
     Ok((found, times))
 }
 
-/// Where the discs go, which are added to `scene`: obstacles by their number, and way-points.
-fn courses(scene: &mut Scene, run: &Run) -> Result<Vec<Flight>, Box<dyn Error>> {
+/// The scene with discs that fly from way-point to way-point.
+fn among_discs(scene: &Scene, run: &Run) -> Result<Scene, Box<dyn Error>> {
     let mut rng = ChaCha8Rng::seed_from_u64(10);
     let mut unit = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-    let (base, reach) = (scene.arm.base(), scene.arm.lengths().iter().sum::<f64>());
+    let (base, [_, reach]) = (scene.arm().base(), scene.arm().reach());
     let mut place =
         || base + Vector::polar(reach * (ROOM_AT_BASE + (1.4 - ROOM_AT_BASE) * unit()), TAU * unit());
-    let mut courses = Vec::new();
+    let mut obstacles = scene.obstacles().to_vec();
     for _ in 0..run.moving {
         let from = place();
         let (mut at, mut time) = (from, 0.0);
@@ -165,35 +166,30 @@ fn courses(scene: &mut Scene, run: &Run) -> Result<Vec<Flight>, Box<dyn Error>> 
             waypoints.push(Waypoint { time, shift: to - from });
             at = to;
         }
-        courses.push((scene.obstacles.len(), waypoints));
+        let motion = ObstacleMotion::new(Course::Waypoints(waypoints), Sight::Always, None)?;
         let disc = Shape::Circle(Circle::new(from, RADIUS)?);
-        scene.obstacles.push(Obstacle { name: None, shape: disc });
+        obstacles.push(Obstacle { motion: Some(motion), ..Obstacle::still(disc) });
     }
-    Ok(courses)
+    Ok(scene.with_obstacles(obstacles)?)
 }
 
-/// What the arm knows at `now` (s).
-fn known(courses: &[Flight], now: f64) -> Result<Vec<Mover>, Box<dyn Error>> {
-    let known = |(obstacle, waypoints): &Flight| {
+/// What the arm knows at `now` (s): the next way-points.
+fn known(scene: &Scene, now: f64) -> Result<Vec<KnownMotion>, Box<dyn Error>> {
+    let mut known = Vec::new();
+    for (obstacle, motion) in scene.obstacles().iter().map(|obstacle| obstacle.motion.as_ref()).enumerate() {
+        let Some(Course::Waypoints(waypoints)) = motion.map(ObstacleMotion::course) else { continue };
         let first = waypoints.partition_point(|waypoint| waypoint.time <= now).saturating_sub(1);
         let last = waypoints.partition_point(|waypoint| waypoint.time <= now + KNOWN_AHEAD);
         let last = (last + 1).min(waypoints.len());
-        Ok(Mover::new(*obstacle, Course::Waypoints(waypoints[first..last].to_vec()), Sight::Always, None)?)
-    };
-    courses.iter().map(known).collect()
+        let next = Course::Waypoints(waypoints[first..last].to_vec());
+        known.push(KnownMotion { obstacle, motion: ObstacleMotion::new(next, Sight::Always, None)? });
+    }
+    Ok(known)
 }
 
-fn is_touched(scene: &Scene, courses: &[Flight], now: f64, state: &State) -> bool {
-    let mut scene = scene.clone();
-    for (obstacle, waypoints) in courses {
-        let after = waypoints.partition_point(|waypoint| waypoint.time <= now);
-        let near = waypoints[after.saturating_sub(1)..(after + 1).min(waypoints.len())].to_vec();
-        let shift = Course::Waypoints(near).shift_at(now);
-        if let Shape::Circle(circle) = &mut scene.obstacles[*obstacle].shape {
-            circle.center = Point::new(circle.center.x + shift.x, circle.center.y + shift.y);
-        }
-    }
-    clearances(&scene, &state.position).into_iter().any(|clearance| clearance <= 0.0)
+fn is_touched(world: &World, state: &State) -> Result<bool, Box<dyn Error>> {
+    let now = world.scene().with_obstacles(world.obstacles())?;
+    Ok(link_clearances(&now, &state.position).into_iter().any(|clearance| clearance <= 0.0))
 }
 
 /// The memory this process holds (MiB), where the system tells, in pages of 4 KiB: on Linux.

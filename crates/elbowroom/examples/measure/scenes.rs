@@ -6,13 +6,12 @@ use elbowroom::scene::{Scene, parse};
 /// The scene in a file, with `points` along each side of its grid.
 pub(crate) fn load(file: &str, points: usize) -> Result<Scene, Box<dyn Error>> {
     let scene = parse(&std::fs::read_to_string(file)?, file)?.scene;
-    let mut scene = scene.two_link().ok_or("the arm has more than two links")?;
-    let (low, columns) = (scene.grid.origin(), scene.grid.columns());
-    let side = scene.grid.step() * (columns - 1) as f64;
+    let (low, columns) = (scene.grid().origin(), scene.grid().columns());
+    let side = scene.grid().step() * (columns - 1) as f64;
     let step = side / (points - 1) as f64;
-    scene.grid = Grid::new([low.x, low.x + side], [low.y, low.y + side], step)?;
-    if scene.grid.len() != points * points {
+    let grid = Grid::new([low.x, low.x + side], [low.y, low.y + side], step)?;
+    if grid.len() != points * points {
         return Err(format!("{file}: the grid is no square of {points} points a side").into());
     }
-    Ok(scene)
+    Ok(scene.with_grid(grid))
 }

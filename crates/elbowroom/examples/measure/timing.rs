@@ -1,4 +1,3 @@
-use elbowroom::arm::Configuration;
 use elbowroom::planners::ASSUMED_LIMITS;
 use elbowroom::trajectory::{Motion, fastest_durations, quintic_through, vias_at};
 use elbowroom::verify::{Trajectory, VerifySettings};
@@ -10,7 +9,6 @@ use super::{Outcome, runs, scenes};
 pub(crate) fn measure(file: &str, vias: &str, runs: usize) -> Outcome {
     let scene = scenes::load(file, 101)?;
     let places: Vec<[f64; 2]> = serde_json::from_str(&std::fs::read_to_string(vias)?)?;
-    let places: Vec<Configuration<2>> = places.into_iter().map(Configuration).collect();
     let timed = || {
         let vias = vias_at(&places);
         Motion::new(quintic_through(&vias, &fastest_durations(&vias, &[ASSUMED_LIMITS; 2])))

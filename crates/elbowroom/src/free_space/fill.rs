@@ -20,7 +20,7 @@ use super::stances::{Lanes, Lengths, Stances};
 use super::state::state_of;
 use crate::arm::Posture;
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 
 /// Points of a small block.
 const POINTS: usize = SIDE * SIDE;
@@ -48,19 +48,19 @@ impl Watch {
 
 /// What is worked out once for all points of a map.
 pub(super) struct Filler<'a> {
-    scene: &'a Scene,
+    scene: TwoLinkScene<'a>,
     lengths: Lengths,
     rules: Vec<Rule>,
 }
 
 impl<'a> Filler<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { scene, lengths: Lengths::of(&scene.arm), rules: Rule::all(scene) }
+    pub(super) fn new(scene: TwoLinkScene<'a>) -> Self {
+        Self { scene, lengths: Lengths::of(scene.arm()), rules: Rule::all(scene) }
     }
 
     /// Points in a row.
     pub(super) fn columns(&self) -> usize {
-        self.scene.grid.columns()
+        self.scene.grid().columns()
     }
 
     /// Fills the part `marks` of the map of `posture`, from the row `first` on, unless `keep_going`, asked every few
@@ -125,7 +125,7 @@ impl<M: Kept> Band<'_, M> {
     /// Fills `block`, where the rules in the part `open` of the list are open and `otherwise` marks what none forbids;
     /// false if it was stopped.
     fn fill(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) -> bool {
-        let (middle, radius) = block.circle_around(&self.filler.scene.grid, self.filler.scene.arm.base());
+        let (middle, radius) = block.circle_around(self.filler.scene.grid(), self.filler.scene.arm().base());
         self.middle.stand(&[middle.x], &[middle.y]);
         let slack = self.slack(radius);
         let around = self.watched.clone();
@@ -205,7 +205,7 @@ impl<M: Kept> Band<'_, M> {
     /// Fills a small block, point by point.
     fn fill_points(&mut self, block: &Block, open: Range<usize>, otherwise: Mark) {
         let Filler { scene, rules, .. } = self.filler;
-        let (grid, base, posture) = (&scene.grid, scene.arm.base(), self.posture);
+        let (grid, base, posture) = (scene.grid(), scene.arm().base(), self.posture);
         let (mut x, mut y): (Lanes<POINTS>, Lanes<POINTS>) = ([0.0; POINTS], [0.0; POINTS]);
         // Lanes beyond the block's last column or row hold points that are not kept.
         let across: [f64; SIDE] = std::array::from_fn(|i| grid.x(block.columns.start + i) - base.x);
@@ -230,7 +230,7 @@ impl<M: Kept> Band<'_, M> {
             for ((mark, &found), column) in marks.iter_mut().zip(found).zip(columns.clone()) {
                 if found == UNDECIDED {
                     let tip = Point::new(grid.x(column), grid.y(row));
-                    *mark = M::cut(mark_of(state_of(scene, tip, posture)));
+                    *mark = M::cut(mark_of(state_of(*scene, tip, posture)));
                 }
             }
             if self.watch.is_some() {

@@ -9,7 +9,7 @@ use super::space::moved;
 use super::stances::{Lanes, Lengths, Stances};
 use crate::arm::Posture;
 use crate::geometry::Point;
-use crate::scene::{Obstacle, Scene};
+use crate::scene::{Obstacle, TwoLinkScene};
 
 /// Points of a small block.
 const POINTS: usize = SIDE * SIDE;
@@ -34,14 +34,14 @@ pub(crate) struct ShortWays {
 ///
 /// `None` if there are more than `most`.
 pub(crate) fn cells_near_moved(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     before: &[Obstacle],
     posture: Posture,
     ways: ShortWays,
     most: usize,
 ) -> Option<Vec<usize>> {
-    let rules = Rule::contacts(&scene.arm, MARGIN, moved(before, &scene.obstacles).into_iter());
-    let lengths = Lengths::of(&scene.arm);
+    let rules = Rule::contacts(scene.arm(), MARGIN, moved(before, scene.obstacles()).into_iter());
+    let lengths = Lengths::of(scene.arm());
     let open = (0..rules.len()).collect();
     let mut near = Near {
         scene,
@@ -53,13 +53,13 @@ pub(crate) fn cells_near_moved(
         found: Vec::new(),
         most,
     };
-    let all = Block { columns: 0..scene.grid.columns(), rows: 0..scene.grid.rows() };
+    let all = Block { columns: 0..scene.grid().columns(), rows: 0..scene.grid().rows() };
     near.search(&all, 0..near.rules.len());
     (near.found.len() <= most).then_some(near.found)
 }
 
 struct Near<'s> {
-    scene: &'s Scene,
+    scene: TwoLinkScene<'s>,
     ways: ShortWays,
     rules: Vec<Rule>,
     middle: Stances<1>,
@@ -73,7 +73,7 @@ struct Near<'s> {
 
 impl Near<'_> {
     fn search(&mut self, block: &Block, open: Range<usize>) {
-        let (middle, radius) = block.circle_around(&self.scene.grid, self.scene.arm.base());
+        let (middle, radius) = block.circle_around(self.scene.grid(), self.scene.arm().base());
         self.middle.stand(&[middle.x], &[middle.y]);
         let distance = self.middle.squared[0].sqrt();
         if open.is_empty() || self.found.len() > self.most || self.is_out_of_reach(distance, radius) {
@@ -129,7 +129,7 @@ impl Near<'_> {
     }
 
     fn look_at_points(&mut self, block: &Block, open: &Range<usize>, slack: Option<Slack>) {
-        let (grid, base) = (self.scene.grid, self.scene.arm.base());
+        let (grid, base) = (self.scene.grid(), self.scene.arm().base());
         let Some(slack) = slack else {
             for row in block.rows.clone() {
                 for column in block.columns.clone() {

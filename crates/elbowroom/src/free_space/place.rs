@@ -2,9 +2,9 @@ use std::fmt;
 
 use super::reason::deepest_contact;
 use super::{FreeSpace, Reason, reason_against};
-use crate::arm::{Arm, Configuration, InverseError, Posture};
+use crate::arm::{InverseError, Posture};
 use crate::geometry::Point;
-use crate::scene::{Place, Scene};
+use crate::scene::{Place, TwoLinkScene};
 
 /// A place where the arm cannot stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,14 +49,16 @@ impl fmt::Display for NotFree {
 ///
 /// # Errors
 /// [`NotFree`] if there is none.
-pub fn configurations(scene: &Scene, place: &Place) -> Result<Vec<Configuration<2>>, NotFree> {
-    let mut found: Vec<Configuration<2>> = Vec::new();
+pub fn configurations(scene: TwoLinkScene<'_>, place: &Place) -> Result<Vec<[f64; 2]>, NotFree> {
+    let mut found: Vec<[f64; 2]> = Vec::new();
     let mut reasons = Vec::new();
     match place {
-        Place::Configuration(q) => match (reason_against(scene, q), two(q)) {
-            (None, Some(q)) => found.push(q),
-            (None, None) => {}
-            (Some(reason), _) => reasons.push((None, reason)),
+        Place::Configuration(q) => match <[f64; 2]>::try_from(&q[..]) {
+            Ok(q) => match reason_against(scene.scene(), &q) {
+                None => found.push(q),
+                Some(reason) => reasons.push((None, reason)),
+            },
+            Err(_) => reasons.push((None, Reason::OtherArm { found: q.len(), joints: 2 })),
         },
         &Place::Tip(tip) => {
             for posture in Posture::ALL {
@@ -79,32 +81,27 @@ pub fn configurations(scene: &Scene, place: &Place) -> Result<Vec<Configuration<
     Ok(found)
 }
 
-/// `q` as the configuration of an arm of two joints, which a scene's tasks hold.
-fn two(q: &[f64]) -> Option<Configuration<2>> {
-    <[f64; 2]>::try_from(q).ok().map(Configuration)
-}
-
-fn in_posture(scene: &Scene, tip: Point, posture: Posture) -> Result<Vec<Configuration<2>>, Reason> {
-    let places = scene.arm.inverse(tip, posture).map_err(|error| match error {
+fn in_posture(scene: TwoLinkScene<'_>, tip: Point, posture: Posture) -> Result<Vec<[f64; 2]>, Reason> {
+    let places = scene.arm().inverse(tip, posture).map_err(|error| match error {
         InverseError::OutOfReach { distance, nearest, farthest } => {
             Reason::OutOfReach { distance, nearest, farthest }
         }
         InverseError::OutsideJointLimits { joint, angle } => {
-            Reason::JointLimit { joint, angle, limits: scene.arm.joints()[joint - 1].limits }
+            Reason::JointLimit { joint, angle, limits: scene.arm().joints()[joint - 1].limits }
         }
     })?;
-    match deepest_contact(scene, &places[0].0) {
+    match deepest_contact(scene.scene(), &places[0]) {
         None => Ok(places),
         Some(reason) => Err(reason),
     }
 }
 
-fn nearest_free(scene: &Scene, place: &Place) -> Option<Point> {
+fn nearest_free(scene: TwoLinkScene<'_>, place: &Place) -> Option<Point> {
     let tip = match place {
         Place::Tip(tip) => *tip,
-        Place::Configuration(q) => scene.arm.tip_at(q),
+        Place::Configuration(q) => scene.arm().tip(&<[f64; 2]>::try_from(&q[..]).ok()?),
     };
     let space = FreeSpace::of(scene);
-    let free = (0..scene.grid.len()).filter(|&cell| space.union_is_free(cell));
-    free.map(|cell| scene.grid.point(cell)).min_by(|a, b| a.distance(tip).total_cmp(&b.distance(tip)))
+    let free = (0..scene.grid().len()).filter(|&cell| space.union_is_free(cell));
+    free.map(|cell| scene.grid().point(cell)).min_by(|a, b| a.distance(tip).total_cmp(&b.distance(tip)))
 }

@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use super::CONTACT_FLOOR;
 use super::state::touches;
-use crate::arm::{Arm, JointLimits};
+use crate::arm::JointLimits;
 use crate::geometry::Segment;
 use crate::scene::Scene;
 
@@ -53,12 +53,24 @@ pub enum Reason {
         /// How much less far apart they are than their half widths ask for (m).
         depth: f64,
     },
+    /// It is the configuration of an arm with another number of joints.
+    #[error("it has {found} joint positions, the arm has {joints} joints")]
+    OtherArm {
+        /// How many positions it has.
+        found: usize,
+        /// How many joints the arm has.
+        joints: usize,
+    },
 }
 
-/// What forbids the configuration `q` (rad): the first joint beyond its stops, else the deepest contact with an obstacle,
+/// What forbids the configuration `q` (rad): another number of joints than the arm has, else the first joint beyond its stops, else the deepest contact with an obstacle,
 /// else the deepest of links with each other.
-pub fn reason_against<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
-    for (j, (joint, &angle)) in scene.arm.joints().iter().zip(q).enumerate() {
+pub fn reason_against(scene: &Scene, q: &[f64]) -> Option<Reason> {
+    let joints = scene.arm().links();
+    if q.len() != joints {
+        return Some(Reason::OtherArm { found: q.len(), joints });
+    }
+    for (j, (joint, &angle)) in scene.arm().joints().iter().zip(q).enumerate() {
         if !joint.limits.contains(angle) {
             return Some(Reason::JointLimit { joint: j + 1, angle, limits: joint.limits });
         }
@@ -66,12 +78,12 @@ pub fn reason_against<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
     deepest_contact(scene, q).or_else(|| deepest_self_contact(scene, q))
 }
 
-pub(super) fn deepest_contact<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
+pub(super) fn deepest_contact(scene: &Scene, q: &[f64]) -> Option<Reason> {
     let mut deepest: Option<(usize, usize, f64)> = None;
-    for (link, segment) in scene.arm.link_segments(q).enumerate() {
-        for (index, obstacle) in scene.obstacles.iter().enumerate() {
-            if touches(&scene.arm, obstacle, segment) {
-                let depth = scene.arm.half_width() - obstacle.signed_distance_to_segment(segment);
+    for (link, segment) in scene.arm().link_segments(q).enumerate() {
+        for (index, obstacle) in scene.obstacles().iter().enumerate() {
+            if touches(scene.arm().half_width(), obstacle, segment) {
+                let depth = scene.arm().half_width() - obstacle.signed_distance_to_segment(segment);
                 if deepest.is_none_or(|(_, _, known)| depth > known) {
                     deepest = Some((link, index, depth));
                 }
@@ -81,21 +93,21 @@ pub(super) fn deepest_contact<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Rea
     deepest.map(|(link, obstacle, depth)| Reason::Collision {
         link: link + 1,
         obstacle,
-        name: scene.obstacles[obstacle].name.clone(),
+        name: scene.obstacles()[obstacle].name.clone(),
         // A link that only comes within the floor of contact is 0 m deep.
         depth: depth.max(0.0),
     })
 }
 
-fn deepest_self_contact<A: Arm>(scene: &Scene<A>, q: &[f64]) -> Option<Reason> {
-    if !scene.arm.self_collision() {
+fn deepest_self_contact(scene: &Scene, q: &[f64]) -> Option<Reason> {
+    if !scene.arm().self_collision() {
         return None;
     }
-    let segments: Vec<Segment> = scene.arm.link_segments(q).collect();
+    let segments: Vec<Segment> = scene.arm().link_segments(q).collect();
     let mut deepest: Option<(usize, usize, f64)> = None;
     for (link, segment) in segments.iter().enumerate() {
         for (other, far) in segments.iter().enumerate().skip(link + 2) {
-            let depth = 2.0 * scene.arm.half_width() - segment.distance_to_segment(*far);
+            let depth = 2.0 * scene.arm().half_width() - segment.distance_to_segment(*far);
             if depth >= -CONTACT_FLOOR && deepest.is_none_or(|(_, _, known)| depth > known) {
                 deepest = Some((link, other, depth));
             }

@@ -3,9 +3,9 @@ use super::arc::Arc;
 use super::mark::{FREE, Mark, mark_of};
 use super::stances::{Lengths, Stances};
 use super::target::Target;
-use crate::arm::TwoLinkArm;
+use crate::arm::TwoLink;
 use crate::geometry::Point;
-use crate::scene::{Obstacle, Scene};
+use crate::scene::{Obstacle, TwoLinkScene};
 
 /// How near to a joint's stop a direction is left undecided (rad).
 const JOINT_ROUNDING: f64 = 1e-9;
@@ -69,8 +69,8 @@ impl Slack {
 
 impl Rule {
     /// All rules of `scene` that could forbid anything, those that come first in [`CellState`]'s order first.
-    pub(super) fn all(scene: &Scene) -> Vec<Self> {
-        let arm = &scene.arm;
+    pub(super) fn all(scene: TwoLinkScene<'_>) -> Vec<Self> {
+        let arm = scene.arm();
         let mut rules = vec![Self { mark: mark_of(CellState::OutOfReach), test: Test::Reach }];
         for joint in 0..2 {
             if let Some(arc) = Arc::of(&arm.joints()[joint].limits) {
@@ -78,14 +78,14 @@ impl Rule {
                 rules.push(Self { mark: mark_of(state), test: Test::Joint { joint, arc } });
             }
         }
-        rules.extend(Self::contacts(arm, 0.0, scene.obstacles.iter().enumerate()));
+        rules.extend(Self::contacts(arm, 0.0, scene.obstacles().iter().enumerate()));
         rules
     }
 
     /// The rules that some obstacles make, each given with its number in the scene, where the arm stays `margin` (m)
     /// farther away than contact.
     pub(super) fn contacts<'o>(
-        arm: &TwoLinkArm,
+        arm: &TwoLink,
         margin: f64,
         obstacles: impl Iterator<Item = (usize, &'o Obstacle)>,
     ) -> Vec<Self> {

@@ -6,9 +6,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::arm::TwoLinkArm;
+use crate::arm::TwoLink;
 use crate::geometry::{Point, Segment, Vector, angle_difference};
-use crate::scene::{Scene, Shape};
+use crate::scene::{Shape, TwoLinkScene};
 
 /// Gaps between arcs up to this (rad) are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-12;
 /// The forbidden places of the joints of an arm among obstacles.
 #[derive(Debug, Clone)]
 pub struct Slices<'a> {
-    arm: &'a TwoLinkArm,
+    arm: TwoLink,
     bodies: Vec<Body<'a>>,
     /// How near to an obstacle's outline a link's centre line may not come (m).
     width: f64,
@@ -37,12 +37,12 @@ struct Arc {
 
 impl<'a> Slices<'a> {
     /// The slices of `scene`, with links that must stay `margin` (m) clear.
-    pub fn new(scene: &'a Scene, margin: f64) -> Self {
-        let bodies = scene.obstacles.iter().map(|obstacle| match &obstacle.shape {
+    pub fn new(scene: TwoLinkScene<'a>, margin: f64) -> Self {
+        let bodies = scene.obstacles().iter().map(|obstacle| match &obstacle.shape {
             Shape::Circle(circle) => Body::Disc { center: circle.center, radius: circle.radius },
             Shape::Polygon(polygon) => Body::Polygon { vertices: polygon.vertices() },
         });
-        Self { arm: &scene.arm, bodies: bodies.collect(), width: scene.arm.half_width() + margin }
+        Self { arm: *scene.arm(), bodies: bodies.collect(), width: scene.arm().half_width() + margin }
     }
 
     /// Where in `range` (rad) the first joint makes the first link touch an obstacle: intervals in order that do not

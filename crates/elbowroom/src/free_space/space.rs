@@ -5,7 +5,7 @@ use super::fill::{Filler, Watch};
 use super::mark::{Kept, Marks};
 use super::rule::Rule;
 use crate::arm::Posture;
-use crate::scene::{Obstacle, Scene};
+use crate::scene::{Obstacle, TwoLinkScene};
 
 /// Rows that are filled as one piece of work.
 const BAND: usize = 32;
@@ -32,13 +32,13 @@ pub struct Cases {
 
 impl FreeSpace {
     /// The maps of `scene`.
-    pub fn of(scene: &Scene) -> Self {
+    pub fn of(scene: TwoLinkScene<'_>) -> Self {
         let (maps, _) = fill(scene, &|| true);
         Self { maps }
     }
 
     /// The maps of `scene`, or `None` if `keep_going`, asked every few hundred points, said no.
-    pub fn of_until(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
+    pub fn of_until(scene: TwoLinkScene<'_>, keep_going: &(dyn Fn() -> bool + Sync)) -> Option<Self> {
         let (maps, done) = fill(scene, keep_going);
         done.then_some(Self { maps })
     }
@@ -48,16 +48,16 @@ impl FreeSpace {
     ///
     /// Obstacles are told apart by their number. One that is taken out gives its number to the next: better to leave one
     /// that may come back in the list, far away.
-    pub fn refill(&mut self, before: &[Obstacle], scene: &Scene) -> ChangedCells {
-        let moved = moved(before, &scene.obstacles);
+    pub fn refill(&mut self, before: &[Obstacle], scene: TwoLinkScene<'_>) -> ChangedCells {
+        let moved = moved(before, scene.obstacles());
         if moved.is_empty() {
             return ChangedCells::default();
         }
         let filler = Filler::new(scene);
         Posture::ALL.map(|posture| {
             let marks = self.maps[posture.index()].marks_mut();
-            marks.make_room(scene.obstacles.len());
-            let mut watch = Watch::new(Rule::contacts(&scene.arm, 0.0, moved.iter().copied()));
+            marks.make_room(scene.obstacles().len());
+            let mut watch = Watch::new(Rule::contacts(scene.arm(), 0.0, moved.iter().copied()));
             let watched = (Some(&mut watch), &(|| true) as &dyn Fn() -> bool);
             match marks {
                 Marks::Bytes(marks) => filler.fill_watched(posture, 0, marks, watched),
@@ -78,9 +78,9 @@ impl FreeSpace {
     }
 
     /// How many points have two, one and no configuration, in `scene`, whose maps these are.
-    pub fn cases(&self, scene: &Scene) -> Cases {
+    pub fn cases(&self, scene: TwoLinkScene<'_>) -> Cases {
         let mut cases = Cases::default();
-        for cell in 0..scene.grid.len() {
+        for cell in 0..scene.grid().len() {
             match Posture::ALL.iter().filter(|&&posture| self.map(posture).is_free(cell)).count() {
                 2 if !both_are_one(scene, cell) => cases.two += 1,
                 0 => cases.none += 1,
@@ -104,13 +104,13 @@ pub(super) fn moved<'o>(before: &'o [Obstacle], now: &'o [Obstacle]) -> Vec<(usi
 }
 
 /// Whether the links are in line with the tip at `cell`, so that both postures are the same configuration.
-fn both_are_one(scene: &Scene, cell: usize) -> bool {
-    let tip = scene.grid.point(cell);
-    scene.arm.inverse_unlimited(tip, Posture::ElbowDown).is_ok_and(|q| Posture::of(&q).is_none())
+fn both_are_one(scene: TwoLinkScene<'_>, cell: usize) -> bool {
+    let tip = scene.grid().point(cell);
+    scene.arm().inverse_unlimited(tip, Posture::ElbowDown).is_ok_and(|q| Posture::of(&q).is_none())
 }
 
 /// Both maps, and whether they were filled to the end.
-fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap; 2], bool) {
+fn fill(scene: TwoLinkScene<'_>, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap; 2], bool) {
     let filler = Filler::new(scene);
     let stopped = AtomicBool::new(false);
     let go_on = || {
@@ -121,7 +121,7 @@ fn fill(scene: &Scene, keep_going: &(dyn Fn() -> bool + Sync)) -> ([FreeSpaceMap
         go_on
     };
     let maps = Posture::ALL.map(|posture| {
-        let mut marks = Marks::free(scene.grid.len(), scene.obstacles.len());
+        let mut marks = Marks::free(scene.grid().len(), scene.obstacles().len());
         match &mut marks {
             Marks::Bytes(marks) => for_each_band(marks, &filler, posture, &go_on),
             Marks::Words(marks) => for_each_band(marks, &filler, posture, &go_on),

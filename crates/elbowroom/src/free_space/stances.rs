@@ -1,4 +1,4 @@
-use crate::arm::{Posture, TwoLinkArm};
+use crate::arm::{Posture, TwoLink};
 
 /// One number for each of `N` stances, side by side so that the compiler works on several at a time.
 pub(super) type Lanes<const N: usize> = [f64; N];
@@ -20,7 +20,7 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    pub(super) fn of(arm: &TwoLinkArm) -> Self {
+    pub(super) fn of(arm: &TwoLink) -> Self {
         let [first, second] = arm.lengths();
         let [nearest, farthest] = arm.reach();
         let (nearest_squared, farthest_squared) = (nearest * nearest, farthest * farthest);

@@ -1,6 +1,6 @@
-use crate::arm::{Arm, InverseError, Posture};
+use crate::arm::{InverseError, Posture};
 use crate::geometry::{Point, Segment};
-use crate::scene::{Obstacle, Scene};
+use crate::scene::{Obstacle, TwoLinkScene};
 
 /// Clearance up to which link and obstacle count as touching (m): the floor below which rounding decides.
 pub const CONTACT_FLOOR: f64 = 1e-9;
@@ -40,12 +40,12 @@ impl CellState {
 /// inverse and forward kinematics.
 ///
 /// The quick way by which maps are filled falls back on this wherever rounding could decide.
-pub fn state_of(scene: &Scene, tip: Point, posture: Posture) -> CellState {
-    match scene.arm.inverse(tip, posture) {
+pub fn state_of(scene: TwoLinkScene<'_>, tip: Point, posture: Posture) -> CellState {
+    match scene.arm().inverse(tip, posture) {
         Err(InverseError::OutOfReach { .. }) => CellState::OutOfReach,
         Err(InverseError::OutsideJointLimits { joint, .. }) => CellState::JointLimit { joint: joint as u8 },
         // Configurations that differ by whole turns put the links in the same place.
-        Ok(found) => match first_contact(scene, scene.arm.links(&found[0])) {
+        Ok(found) => match first_contact(scene, scene.arm().link_segments(&found[0])) {
             None => CellState::Free,
             Some((link, obstacle)) => {
                 CellState::Collision { link: link as u8 + 1, obstacle: obstacle as u16 }
@@ -55,14 +55,14 @@ pub fn state_of(scene: &Scene, tip: Point, posture: Posture) -> CellState {
 }
 
 /// The first link, and its first obstacle, that touch; both from 0.
-fn first_contact(scene: &Scene, links: [Segment; 2]) -> Option<(usize, usize)> {
+fn first_contact(scene: TwoLinkScene<'_>, links: [Segment; 2]) -> Option<(usize, usize)> {
     links.into_iter().enumerate().find_map(|(link, segment)| {
-        let hit = |obstacle: &Obstacle| touches(&scene.arm, obstacle, segment);
-        scene.obstacles.iter().position(hit).map(|obstacle| (link, obstacle))
+        let hit = |obstacle: &Obstacle| touches(scene.arm().half_width(), obstacle, segment);
+        scene.obstacles().iter().position(hit).map(|obstacle| (link, obstacle))
     })
 }
 
-/// Whether a link with its centre line at `segment` touches `obstacle`.
-pub(super) fn touches(arm: &impl Arm, obstacle: &Obstacle, segment: Segment) -> bool {
-    obstacle.distance_to_segment(segment) <= arm.half_width() + CONTACT_FLOOR
+/// Whether a link of `half_width` (m) with its centre line at `segment` touches `obstacle`.
+pub(super) fn touches(half_width: f64, obstacle: &Obstacle, segment: Segment) -> bool {
+    obstacle.distance_to_segment(segment) <= half_width + CONTACT_FLOOR
 }

@@ -3,7 +3,7 @@ use std::sync::Arc as Shared;
 use super::boundary::Boundary;
 use super::stances::{Lanes, Links};
 use super::state::CONTACT_FLOOR;
-use crate::arm::TwoLinkArm;
+use crate::arm::TwoLink;
 use crate::geometry::{Point, Vector};
 use crate::scene::{Obstacle, Shape};
 
@@ -32,7 +32,7 @@ pub(super) struct Target {
 
 impl Target {
     /// `obstacle` to an arm that is to stay `margin` (m) farther away than contact.
-    pub(super) fn new(arm: &TwoLinkArm, obstacle: &Obstacle, margin: f64) -> Self {
+    pub(super) fn new(arm: &TwoLink, obstacle: &Obstacle, margin: f64) -> Self {
         let base = arm.base();
         let floor = arm.half_width() + CONTACT_FLOOR + margin;
         let (center, radius, contact, polygon) = match &obstacle.shape {

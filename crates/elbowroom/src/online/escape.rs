@@ -1,32 +1,9 @@
 use super::interval_search::{Lattice, Stay, way_out};
 use super::safe_intervals::SafeIntervals;
-use super::search::{FAR, Search};
-use crate::arm::Configuration;
+use super::search::Search;
+use super::settings::{Attempt, FAR, PACE};
+use crate::arm::lerp_pair;
 use crate::trajectory::{Motion, spline_along, third_point};
-
-/// How to look for a way out.
-pub(super) struct Attempt {
-    /// The room that is kept (m), for what the motion will be off the way.
-    room: f64,
-    /// Between places that may be gone to (rad).
-    lattice: f64,
-    /// Between control points of the motion (s): a motion with more time between them is faster, and farther off.
-    control: f64,
-    /// How much of what acceleration and jerk allow the way uses: one that turns back at once needs less than half.
-    vigour: f64,
-}
-
-/// Quick ones first.
-pub(super) const ATTEMPTS: [Attempt; 5] = [
-    Attempt { room: 0.02, lattice: 0.1, control: 0.2, vigour: 0.95 },
-    Attempt { room: 0.01, lattice: 0.1, control: 0.4, vigour: 0.5 },
-    Attempt { room: 0.004, lattice: 0.05, control: 0.2, vigour: 0.95 },
-    Attempt { room: 0.001, lattice: 0.03, control: 0.2, vigour: 0.5 },
-    Attempt { room: 0.0005, lattice: 0.03, control: 0.4, vigour: 0.5 },
-];
-
-/// How near to its greatest speed a joint is taken.
-const PACE: f64 = 0.9;
 
 impl Search<'_> {
     /// A motion to where the arm can stay for good or, if there is no such place, the longest; and until when that is safe
@@ -42,13 +19,12 @@ impl Search<'_> {
         });
         let speed = speeds.fold(f64::INFINITY, f64::min);
         let free = SafeIntervals {
-            scene: self.scene,
-            movers: self.movers,
+            scene: self.known.all(),
             room: attempt.room,
             now: self.now + step,
             horizon: self.now + FAR,
         };
-        let start = Configuration(<[f64; 2]>::try_from(third_point(self.state, step)).ok()?);
+        let start = <[f64; 2]>::try_from(third_point(self.state, step)).ok()?;
         let lattice = Lattice { step: attempt.lattice, time: attempt.lattice / speed };
         let way = way_out(&free, &start, lattice, self.keep_going)?;
         let motion =
@@ -64,8 +40,8 @@ fn place_at(way: &[Stay], time: f64) -> Vec<f64> {
     match (way.get(next - 1), way.get(next)) {
         (Some(stay), Some(next)) => {
             let fraction = ((time - stay.leave) / (next.arrive - stay.leave)).clamp(0.0, 1.0);
-            stay.q.lerp(&next.q, fraction).0.to_vec()
+            lerp_pair(&stay.q, &next.q, fraction).to_vec()
         }
-        (stay, _) => stay.map_or_else(Vec::new, |stay| stay.q.0.to_vec()),
+        (stay, _) => stay.map_or_else(Vec::new, |stay| stay.q.to_vec()),
     }
 }

@@ -2,10 +2,7 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::{BinaryHeap, HashMap};
 
 use super::safe_intervals::{SafeIntervals, Standing};
-use crate::arm::Configuration;
-
-/// Expansions after which the search ends with what it has.
-const MOST_EXPANSIONS: usize = 20_000;
+use super::settings::MOST_EXPANSIONS;
 
 /// Turns between places a `step` (rad) apart in one joint or both, each in the same `time` (s).
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +13,7 @@ pub(super) struct Lattice {
 
 /// A place on a way, and from when to when the arm stands there (s).
 pub(super) struct Stay {
-    pub(super) q: Configuration<2>,
+    pub(super) q: [f64; 2],
     pub(super) arrive: f64,
     pub(super) leave: f64,
 }
@@ -41,11 +38,11 @@ struct Reached {
 /// that others can, for the arm may wait; so each interval is entered once. Turns are looked at only at their ends.
 pub(super) fn way_out(
     free: &SafeIntervals,
-    start: &Configuration<2>,
+    start: &[f64; 2],
     lattice: Lattice,
     keep_going: &dyn Fn() -> bool,
 ) -> Option<Vec<Stay>> {
-    let place = |cell: Cell| Configuration([0, 1].map(|j| start.0[j] + lattice.step * f64::from(cell[j])));
+    let place = |cell: Cell| [0, 1].map(|j| start[j] + lattice.step * f64::from(cell[j]));
     let here = free.at(start);
     here.intervals.first().filter(|interval| interval[0] <= free.now)?;
     let first = ([0, 0], 0);
@@ -119,16 +116,17 @@ mod tests {
     use std::collections::HashSet;
 
     use rand_chacha::ChaCha8Rng;
-    use rand_core::{Rng, SeedableRng};
+    use rand_core::SeedableRng;
 
     use super::{Lattice, TURNS, way_out};
-    use crate::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+    use crate::arm::{Arm, Joint, JointLimits, MotionLimits};
     use crate::geometry::{Circle, Point, Vector};
     use crate::grid::Grid;
+    use crate::online::placed::still;
     use crate::online::safe_intervals::SafeIntervals;
-    use crate::online::world::shifted;
-    use crate::path::clearances;
-    use crate::scene::{Course, Mover, Obstacle, Scene, Shape, Sight, Waypoint};
+    use crate::path::link_clearances;
+    use crate::random::unit;
+    use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight, Waypoint};
 
     const ROOM: f64 = 0.01;
     const HORIZON: f64 = 20.0;
@@ -138,15 +136,15 @@ mod tests {
     /// No disc gets farther in a tick (m).
     const SLACK: f64 = 0.012;
 
-    fn case(seed: u64) -> (Scene, Vec<Mover>, Configuration<2>) {
+    fn case(seed: u64) -> (Scene, [f64; 2]) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut unit = move || (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        let mut unit = move || unit(&mut rng);
         let range = |most: f64| JointLimits::range(-most, most).unwrap();
         let joints = [2.2, 2.4].map(|most| Joint { limits: range(most), motion: MotionLimits::default() });
-        let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [0.25, 0.25], 0.01, joints).unwrap();
+        let arm = Arm::new(Point::new(0.0, 0.0), vec![0.25, 0.25], 0.01, joints.to_vec(), false).unwrap();
         let grid = Grid::new([-0.5, 0.5], [-0.5, 0.5], 0.05).unwrap();
-        let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
-        for i in 0..3 {
+        let mut obstacles = Vec::new();
+        for _ in 0..3 {
             let mut place = || Vector::polar(0.15 + 0.5 * unit(), std::f64::consts::TAU * unit());
             let from = place();
             let course = Course::Waypoints(
@@ -157,35 +155,29 @@ mod tests {
                     })
                     .collect(),
             );
-            movers.push(Mover::new(i, course, Sight::Always, None).unwrap());
+            let motion = ObstacleMotion::new(course, Sight::Always, None).unwrap();
             let circle = Circle { center: Point::new(0.0, 0.0) + from, radius: 0.02 + 0.04 * unit() };
-            obstacles.push(Obstacle { name: None, shape: Shape::Circle(circle) });
+            obstacles.push(Obstacle { motion: Some(motion), ..Obstacle::still(Shape::Circle(circle)) });
         }
-        let start = Configuration([1.5 - 3.0 * unit(), 2.0 - 4.0 * unit()]);
-        (Scene { arm, grid, obstacles, tasks: Vec::new() }, movers, start)
+        let start = [1.5 - 3.0 * unit(), 2.0 - 4.0 * unit()];
+        (Scene::new(arm, grid, obstacles, Vec::new()).unwrap(), start)
     }
 
-    fn clearance(scene: &Scene, movers: &[Mover], q: &Configuration<2>, time: f64) -> f64 {
-        let mut scene = scene.clone();
-        for mover in movers {
-            let shape = &mut scene.obstacles[mover.obstacle()].shape;
-            *shape = shifted(shape, mover.course().shift_at(time));
-        }
-        clearances(&scene, &q.0).into_iter().fold(f64::INFINITY, f64::min)
+    fn clearance(scene: &Scene, q: &[f64; 2], time: f64) -> f64 {
+        let now = still(scene, |_, obstacle| Some(obstacle.motion.as_ref()?.course().shift_at(time)));
+        link_clearances(&now, q).into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// When a flood in time first gets to a cell that stays free, for arms that keep `room` (m).
-    fn flood(scene: &Scene, movers: &[Mover], start: &Configuration<2>, room: f64) -> Option<f64> {
+    fn flood(scene: &Scene, start: &[f64; 2], room: f64) -> Option<f64> {
         let ticks = (HORIZON / TICK) as usize;
         let turn = (LATTICE.time / TICK).round() as usize;
         let mut free: std::collections::HashMap<[i32; 2], Vec<bool>> = Default::default();
         let mut look = |cell: [i32; 2], tick: usize| {
             let line = free.entry(cell).or_insert_with(|| {
-                let q = Configuration([0, 1].map(|j| start.0[j] + LATTICE.step * f64::from(cell[j])));
-                let within = scene.arm.within_limits(&q);
-                (0..=ticks)
-                    .map(|tick| within && clearance(scene, movers, &q, TICK * tick as f64) > room)
-                    .collect()
+                let q = [0, 1].map(|j| start[j] + LATTICE.step * f64::from(cell[j]));
+                let within = scene.arm().within_limits(&q);
+                (0..=ticks).map(|tick| within && clearance(scene, &q, TICK * tick as f64) > room).collect()
             });
             (line[tick], line[tick..].iter().all(|free| *free))
         };
@@ -210,23 +202,22 @@ mod tests {
     fn a_place_to_stay_is_reached_as_soon_as_by_a_flood_in_time() {
         let (mut found, mut lost) = (0, 0);
         for seed in 0..300 {
-            let (scene, movers, start) = case(seed);
-            let free =
-                SafeIntervals { scene: &scene, movers: &movers, room: ROOM, now: 0.0, horizon: HORIZON };
+            let (scene, start) = case(seed);
+            let free = SafeIntervals { scene: &scene, room: ROOM, now: 0.0, horizon: HORIZON };
             let way = way_out(&free, &start, LATTICE, &|| true);
             let Some(way) = way else {
-                assert!(clearance(&scene, &movers, &start, 0.0) <= ROOM, "seed {seed}");
+                assert!(clearance(&scene, &start, 0.0) <= ROOM, "seed {seed}");
                 continue;
             };
             let last = way.last().unwrap();
             let intervals = free.at(&last.q).intervals;
             let stays = intervals.iter().any(|i| i[0] <= last.arrive && i[1].is_infinite());
-            if let Some(soonest) = flood(&scene, &movers, &start, ROOM + SLACK) {
+            if let Some(soonest) = flood(&scene, &start, ROOM + SLACK) {
                 found += 1;
                 assert!(stays && last.arrive <= soonest + 1e-9, "seed {seed}: {soonest} s");
             }
             if stays {
-                let soonest = flood(&scene, &movers, &start, ROOM - SLACK).unwrap();
+                let soonest = flood(&scene, &start, ROOM - SLACK).unwrap();
                 assert!(soonest <= last.arrive + TICK + 1e-9, "seed {seed}: {soonest} s");
             } else {
                 lost += 1;
@@ -236,10 +227,7 @@ mod tests {
                 for look in 0..=20 {
                     let time = stay.arrive + (leave - stay.arrive) * f64::from(look) / 20.0;
                     let is_last = stay.leave.is_infinite() && !stays;
-                    assert!(
-                        is_last || clearance(&scene, &movers, &stay.q, time) > ROOM - SLACK,
-                        "seed {seed}"
-                    );
+                    assert!(is_last || clearance(&scene, &stay.q, time) > ROOM - SLACK, "seed {seed}");
                 }
             }
         }

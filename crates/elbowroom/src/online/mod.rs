@@ -2,15 +2,21 @@
 
 mod escape;
 mod interval_search;
+mod known;
+mod placed;
 mod replanner;
 mod retreat;
 mod roadmap;
 mod routes;
 mod safe_intervals;
 mod search;
+mod settings;
 mod to_goal;
+mod update;
 mod world;
 
-pub use replanner::{Decision, ReplanError, Replanner, Update};
+pub use known::{KnownError, KnownMotion};
+pub use replanner::{ReplanError, Replanner, goal_configurations};
 pub use roadmap::{NoRoute, Roadmap, Route, Updated, Upkeep};
+pub use update::{Decision, Update};
 pub use world::World;

@@ -2,47 +2,26 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::SeedableRng;
 use thiserror::Error;
 
+use super::known::{KnownError, KnownMotion, KnownScene};
+use super::placed::{AWAY, still};
 use super::routes::Routes;
-use super::search::{HOLD, Search, standing};
-use crate::arm::{Configuration, joint_distance};
+use super::search::{Certified, Search, standing};
+use super::settings::{ASTRAY, HOLD, LOOK_EVERY};
+use super::update::{Decision, Update};
+use crate::arm::joint_distance;
 use crate::free_space::{NotFree, configurations};
 use crate::planners::{PlanError, motion_limits};
-use crate::scene::{Mover, Place, Scene};
+use crate::scene::{Place, Scene, TwoLinkError};
 use crate::trajectory::{Motion, SpeedLimits, State, TICK};
 use crate::verify::{Verdict, Violation};
 
-/// Updates between two looks for a motion that is better than the safe one that runs.
-const LOOK_EVERY: u64 = 10;
-
-/// How far the arm may be from where its motion has it before the motion counts as lost (rad, rad/s).
-const ASTRAY: f64 = 1e-6;
-
-/// What the arm is to do.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Decision {
-    /// Go on: the motion that runs is still safe.
-    Keep,
-    /// Run this motion from now on; it takes over where the arm is, without a jump.
-    New(Motion),
-    /// Come to rest on this motion: nothing better was found in time.
-    Stop(Motion),
-}
-
-/// What an update came to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Update {
-    /// What the arm is to do.
-    pub decision: Decision,
-    /// Whether the motion that now runs ends at a goal.
-    pub reaches_goal: bool,
-    /// What the verifier says of what is left of it, until it has come to rest and, among obstacles whose course is
-    /// known, for eight seconds more. Not safe only where nothing safe was found, braking included.
-    pub verdict: Verdict,
-}
-
 /// Why there is no replanner.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ReplanError {
+    /// The arm is not one of two links.
+    #[error(transparent)]
+    Arm(TwoLinkError),
     /// The arm cannot stand at the goal whatever moves.
     #[error("goal: {0}")]
     Goal(NotFree),
@@ -58,7 +37,8 @@ pub enum ReplanError {
 /// more among those whose course is known. Obstacles whose course is not known may be anywhere that their greatest speed
 /// allows.
 pub struct Replanner {
-    scene: Scene,
+    known: KnownScene,
+    goals: Vec<[f64; 2]>,
     limits: Vec<SpeedLimits>,
     routes: Routes,
     motion: Motion,
@@ -67,38 +47,37 @@ pub struct Replanner {
     rng: ChaCha8Rng,
 }
 
+/// The configurations at `goal` (rad) in which the arm of `scene` may stand whatever moves.
+///
+/// # Errors
+/// [`ReplanError::Goal`] if there is none, [`ReplanError::Arm`].
+pub fn goal_configurations(scene: &Scene, goal: &Place) -> Result<Vec<[f64; 2]>, ReplanError> {
+    let still = still(scene, |_, obstacle| obstacle.motion.as_ref().map(|_| AWAY));
+    configurations(still.two_link().map_err(ReplanError::Arm)?, goal).map_err(ReplanError::Goal)
+}
+
 impl Replanner {
-    /// For the arm of `scene` standing at `start`, to get to `goal`. The scene's obstacles are where it has them as long
-    /// as no mover says otherwise.
+    /// For the arm of `scene` standing at `start` (rad), to get to `goal`. The obstacles that have a motion are those that
+    /// may move, whatever it is: each update is told what is known of it.
     ///
     /// # Errors
-    /// [`ReplanError`] where the arm cannot stand at the goal even without the obstacles that are in `movers`, or at
-    /// `start` without any.
-    pub fn new(
-        scene: Scene,
-        movers: &[Mover],
-        start: Configuration<2>,
-        goal: &Place,
-        seed: u64,
-    ) -> Result<Self, ReplanError> {
-        let mut still = scene.clone();
-        let mut index = 0;
-        still.obstacles.retain(|_| {
-            index += 1;
-            movers.iter().all(|mover| mover.obstacle() != index - 1)
-        });
-        let goals = configurations(&still, goal).map_err(ReplanError::Goal)?;
-        let (limits, _) = motion_limits(&scene.arm);
-        let reaches_goal = goals.iter().any(|goal| goal.distance(&start) < ASTRAY);
-        Ok(Self {
-            routes: Routes::new(&scene, &start, goal)?,
+    /// [`ReplanError`] for an arm of more links than two, and where it cannot stand at the goal even without the obstacles
+    /// that move, or at `start` without any.
+    pub fn new(scene: Scene, start: [f64; 2], goal: &Place, seed: u64) -> Result<Self, ReplanError> {
+        let goals = goal_configurations(&scene, goal)?;
+        let (limits, _) = motion_limits(scene.arm());
+        let mut replanner = Self {
+            routes: Routes::new(&scene, start, goal)?,
+            known: KnownScene::new(scene),
+            goals,
             limits,
-            motion: standing(&start.0, 0.0, HOLD),
-            reaches_goal,
+            motion: standing(&start, 0.0, HOLD),
+            reaches_goal: false,
             updates: 0,
             rng: ChaCha8Rng::seed_from_u64(seed),
-            scene,
-        })
+        };
+        replanner.reaches_goal = replanner.is_at_goal(&State::rest(&start));
+        Ok(replanner)
     }
 
     /// The motion that runs; before its start and after its end the arm stands.
@@ -111,55 +90,72 @@ impl Replanner {
         self.reaches_goal
     }
 
-    /// What to do now (s), with the arm in `state` and `movers` as they are known now. `keep_going` is asked between
-    /// steps of a fraction of a millisecond to some milliseconds each; after it says no, what has been found decides.
+    /// Whether an arm in `state` rests at a goal.
+    pub fn is_at_goal(&self, state: &State) -> bool {
+        let arm = self.known.all().arm();
+        let is_at = |goal: &[f64; 2]| arm.distance(goal, &state.position) < ASTRAY;
+        let mut rates = state.velocity.iter().chain(&state.acceleration);
+        state.position.len() == arm.links()
+            && rates.all(|rate| rate.abs() < ASTRAY)
+            && self.goals.iter().any(is_at)
+    }
+
+    /// What to do now (s), with the arm in `state` and the obstacles as they are `known` now: those that are left out stand
+    /// where the scene has them. `keep_going` is asked between steps of a fraction of a millisecond to some milliseconds
+    /// each; after it says no, what has been found decides.
+    ///
+    /// # Errors
+    /// [`KnownError`] where what is known is not of this scene; the motion that runs is as it was then.
     pub fn update(
         &mut self,
-        movers: &[Mover],
+        known: &[KnownMotion],
         now: f64,
         state: &State,
         keep_going: &(dyn Fn() -> bool + Sync),
-    ) -> Update {
+    ) -> Result<Update, KnownError> {
+        self.known.learn(known)?;
         self.updates += 1;
-        let search = Search::new((&self.scene, &self.limits), movers, now, state, keep_going);
-        let rest = self.rest(now, state);
-        let verdict_of_rest = rest.as_ref().map(|rest| search.judge(rest));
-        let is_safe = verdict_of_rest.as_ref().is_some_and(Verdict::is_safe);
-        if is_safe && self.reaches_goal && self.updates % LOOK_EVERY != 1 {
-            return self.keep(verdict_of_rest);
+        let may_look = self.updates.is_multiple_of(LOOK_EVERY);
+        let search = Search { known: &self.known, limits: &self.limits, now, state, keep_going };
+        let rest = self.rest(now, state).map(|rest| (search.judge(&rest), rest));
+        let (safe, faulty) = match rest {
+            Some((verdict, rest)) if verdict.is_safe() => (Some((verdict, rest)), None),
+            other => (None, other),
+        };
+        let arrives = safe.is_some() && self.reaches_goal;
+        if let Some((verdict, _)) = safe.as_ref().filter(|_| arrives && !may_look) {
+            return Ok(self.keep(verdict.clone()));
         }
-        let arrival = if is_safe && self.reaches_goal { self.motion.end() } else { f64::INFINITY };
+        let arrival = if arrives { self.motion.end() } else { f64::INFINITY };
         let refused = match search.to_goal(&mut self.routes, arrival) {
-            Ok((motion, verdict)) => return self.run(motion, true, verdict),
+            Ok(found) => return Ok(self.run(found, true)),
             Err(refused) => refused,
         };
-        if arrival.is_infinite()
-            && let Some((motion, verdict)) = refused.iter().find_map(|motion| search.part_of(motion))
-        {
-            return self.run(motion, false, verdict);
+        if !arrives && let Some(part) = refused.iter().find_map(|motion| search.part_of(motion, true)) {
+            return Ok(self.run(part, false));
         }
-        if is_safe {
-            let may_look = !self.reaches_goal && self.updates % LOOK_EVERY == 1;
-            let safer = rest.filter(|_| may_look).and_then(|rest| search.safer(&rest, &mut self.rng));
-            return match safer {
-                Some((motion, verdict)) => self.run(motion, false, verdict),
-                None => self.keep(verdict_of_rest),
-            };
+        if let Some((verdict, rest)) = safe {
+            let looks = may_look && !self.reaches_goal;
+            let safer = if looks { search.safer(&rest, &mut self.rng) } else { None };
+            return Ok(match safer {
+                Some(safer) => self.run(safer, false),
+                None => self.keep(verdict),
+            });
         }
         let motion = search.retreat(&mut self.rng);
-        let verdict = search.judge(&motion);
-        if verdict.is_safe() {
-            return self.run(motion, false, verdict);
+        let verdict = match search.certify(motion.clone()) {
+            Ok(found) => return Ok(self.run(found, false)),
+            Err(verdict) => *verdict,
+        };
+        // A part that may lead into a trap leaves more time than one that is not safe now.
+        if let Some(part) = refused.iter().find_map(|motion| search.part_of(motion, false)) {
+            return Ok(self.run(part, false));
         }
         // Nothing is proved to be safe: what is safe the longest leaves the most time to find something.
-        let going_on =
-            rest.zip(verdict_of_rest).filter(|(_, other)| first_fault(other) >= first_fault(&verdict));
-        if let Some((_, verdict)) = going_on {
-            return self.keep(Some(verdict));
-        }
-        self.motion = motion.clone();
-        self.reaches_goal = false;
-        Update { decision: Decision::Stop(motion), reaches_goal: false, verdict }
+        Ok(match faulty {
+            Some((other, _)) if first_fault(&other) >= first_fault(&verdict) => self.keep(other),
+            _ => self.stop(motion, verdict),
+        })
     }
 
     /// What is left of the motion that runs, or of standing at its end; `None` if the arm is not on it.
@@ -171,21 +167,20 @@ impl Replanner {
         (off <= ASTRAY).then(left)
     }
 
-    fn keep(&self, verdict: Option<Verdict>) -> Update {
-        let verdict = verdict.unwrap_or_else(|| Verdict {
-            violations: Vec::new(),
-            least_clearance: None,
-            joint_margins: Vec::new(),
-            motion_margins: Vec::new(),
-            posture_changes: Vec::new(),
-        });
+    fn keep(&self, verdict: Verdict) -> Update {
         Update { decision: Decision::Keep, reaches_goal: self.reaches_goal, verdict }
     }
 
-    fn run(&mut self, motion: Motion, reaches_goal: bool, verdict: Verdict) -> Update {
-        self.motion = motion.clone();
+    fn run(&mut self, Certified { trajectory, verdict }: Certified, reaches_goal: bool) -> Update {
+        self.motion = trajectory.motion().clone();
         self.reaches_goal = reaches_goal;
-        Update { decision: Decision::New(motion), reaches_goal, verdict }
+        Update { decision: Decision::New(trajectory), reaches_goal, verdict }
+    }
+
+    fn stop(&mut self, motion: Motion, verdict: Verdict) -> Update {
+        self.motion = motion.clone();
+        self.reaches_goal = false;
+        Update { decision: Decision::Stop(motion), reaches_goal: false, verdict }
     }
 }
 

@@ -3,21 +3,13 @@ use std::ops::Range;
 use rand_chacha::ChaCha8Rng;
 use rand_core::Rng;
 
-use super::escape::ATTEMPTS;
-use super::search::{HOLD, Search, after_waiting, standing};
+use super::search::{Certified, Search, after_waiting, standing};
+use super::settings::{
+    ATTEMPTS, FARTHER_TRIES, HOLD, LONGEST_WAIT, MOST_TRIES, NEAREST_TRY, TRIES, WORTH_LEAVING,
+};
 use crate::arm::JointLimits;
+use crate::random::unit;
 use crate::trajectory::{Motion, departing, fastest_durations, quintic_through, vias_at};
-use crate::verify::Verdict;
-
-/// Random ways that are tried to find the best, and as long as none is safe.
-const TRIES: usize = 60;
-const MOST_TRIES: usize = 300;
-
-/// How much longer (s) another place has to be safe for the arm to go there.
-const WORTH_LEAVING: f64 = 1.0;
-
-/// How long the arm waits at a rest on its way out of the way (s), at most.
-const LONGEST_WAIT: f64 = 4.0;
 
 /// Motions to rest, and until when the arm may stay there (s).
 struct Ways {
@@ -47,7 +39,7 @@ impl Ways {
 
 impl Search<'_> {
     /// A safe motion that is so for longer than `rest`, which leads nowhere, if that is not safe as far as is looked ahead.
-    pub(super) fn safer(&self, rest: &Motion, rng: &mut ChaCha8Rng) -> Option<(Motion, Verdict)> {
+    pub(super) fn safer(&self, rest: &Motion, rng: &mut ChaCha8Rng) -> Option<Certified> {
         let until = self.safe_until(rest);
         if until.is_infinite() {
             return None;
@@ -84,7 +76,7 @@ impl Search<'_> {
             if ways.is_best_possible() || !(self.keep_going)() {
                 break;
             }
-            let far = 0.2 + 2.8 * (i % TRIES) as f64 / TRIES as f64;
+            let far = NEAREST_TRY + FARTHER_TRIES * (i % TRIES) as f64 / TRIES as f64;
             let motion = if i % 2 == 0 {
                 let places = [self.state.position.clone(), self.near(&self.state.position, far, rng)];
                 departing(self.now, self.state, &vias_at(&places), self.limits).ok().flatten()
@@ -109,7 +101,7 @@ impl Search<'_> {
 
     /// A random place no farther than `far` (rad) from `q` in any joint, within the stops.
     fn near(&self, q: &[f64], far: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
-        let joints = q.iter().zip(self.scene.arm.joints());
+        let joints = q.iter().zip(self.known.all().arm().joints());
         joints
             .map(|(q, joint)| {
                 let to = q + far * (2.0 * unit(rng) - 1.0);
@@ -120,9 +112,4 @@ impl Search<'_> {
             })
             .collect()
     }
-}
-
-/// In [0, 1).
-fn unit(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }

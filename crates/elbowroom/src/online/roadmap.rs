@@ -1,10 +1,10 @@
 use thiserror::Error;
 
-use crate::arm::Configuration;
-use crate::free_space::FreeSpace;
-use crate::path::{JointPath, sweep_is_free};
-use crate::planners::{ChangingGraph, Goal, Kept, PlanError, Problem};
-use crate::scene::{Obstacle, Scene, Shape, Task};
+use super::placed::{AWAY, still};
+use crate::free_space::{ChangedCells, FreeSpace};
+use crate::path::{JointPath, straight_move_is_free};
+use crate::planners::{ChangingGraph, Endpoints, Goal, Kept, PlanError, Planner, Unwatched};
+use crate::scene::{Obstacle, Scene, SceneProblem, Shape, Task, TwoLinkError};
 use crate::search::{Dstar, Graph, Progress, Until};
 
 /// Expansions of D* between two looks at how far the search has to go.
@@ -86,15 +86,22 @@ impl Roadmap {
     ///
     /// # Errors
     /// [`PlanError::Start`] and [`PlanError::Goal`] where the arm could not stand if there were no obstacles,
-    /// [`PlanError::GoalPosture`].
+    /// [`PlanError::GoalPosture`]; [`PlanError::OtherArm`] for more links than two, [`PlanError::Moving`] for an obstacle
+    /// that moves by itself.
     pub fn new(scene: Scene, task: &Task) -> Result<Self, PlanError> {
-        let empty = Scene { obstacles: Vec::new(), ..scene.clone() };
-        let Problem { goals, may_flip, .. } = Problem::new(&empty, task)?;
-        let space = FreeSpace::of(&scene);
-        let graph = ChangingGraph::new(&scene, &space, may_flip, (Kept::default(), &[]));
+        let two_link = scene.two_link().map_err(|error| match error {
+            TwoLinkError::Links { found } => {
+                PlanError::OtherArm { planner: Planner::Dstar.name(), links: found }
+            }
+            TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
+        })?;
+        let ends = Endpoints::new(&still(&scene, |_, _| Some(AWAY)), task, 0, &Unwatched)?;
+        let ([_, goals], may_flip) = (ends.pairs(), !ends.keep_posture);
+        let space = FreeSpace::of(two_link);
+        let graph = ChangingGraph::new(two_link, &space, may_flip, (Kept::default(), &[]));
         let goals = graph.goals_at(&goals);
         let kept = graph.into_kept();
-        let graph = ChangingGraph::new(&scene, &space, may_flip, (kept, &goals));
+        let graph = ChangingGraph::new(two_link, &space, may_flip, (kept, &goals));
         let mut field = Dstar::new(graph.len());
         for goal in graph.goal_nodes() {
             field.insert_goal(goal, 0.0)?;
@@ -120,34 +127,55 @@ impl Roadmap {
         &self.space
     }
 
-    /// The goal configurations, blocked or not.
-    pub fn goals(&self) -> impl Iterator<Item = &Configuration<2>> {
+    /// The goal configurations (rad), blocked or not.
+    pub fn goals(&self) -> impl Iterator<Item = &[f64; 2]> {
         self.goals.iter().map(|goal| &goal.q)
     }
 
-    /// Tells where all obstacles are now.
+    /// Tells where all obstacles are now; a motion of theirs does not count.
     ///
     /// They are told apart by their number: better to leave one that may come back in the list, far away, than to take
     /// it out.
-    pub fn move_obstacles(&mut self, obstacles: Vec<Obstacle>) -> Updated {
-        let before = std::mem::replace(&mut self.scene.obstacles, obstacles);
-        if shapes(&before).eq(shapes(&self.scene.obstacles)) {
+    ///
+    /// # Errors
+    /// [`SceneProblem`] where no scene has such obstacles; all is as it was then.
+    pub fn move_obstacles(&mut self, obstacles: Vec<Obstacle>) -> Result<Updated, SceneProblem> {
+        let obstacles = obstacles.into_iter().map(|obstacle| Obstacle { motion: None, ..obstacle }).collect();
+        let scene = self.scene.with_obstacles(obstacles)?;
+        let before = std::mem::replace(&mut self.scene, scene);
+        Ok(self.obstacles_moved(before.obstacles()))
+    }
+
+    /// The same for the obstacles that are there, put elsewhere to stand still.
+    pub(super) fn place_obstacles(&mut self, mut obstacles: Vec<Obstacle>) -> Updated {
+        let places = self.scene.obstacles_mut().iter_mut().zip(&mut obstacles);
+        places.for_each(|(before, now)| std::mem::swap(before, now));
+        self.obstacles_moved(&obstacles)
+    }
+
+    fn obstacles_moved(&mut self, before: &[Obstacle]) -> Updated {
+        if shapes(before).eq(shapes(self.scene.obstacles())) {
             return Updated { cells: 0, repaired: Some(0) };
         }
-        let changed = self.space.refill(&before, &self.scene);
+        let changed = match self.scene.two_link() {
+            Ok(scene) => self.space.refill(before, scene),
+            Err(_) => ChangedCells::default(),
+        };
         let most = match self.upkeep {
             Upkeep::Cheaper => (WORTH_REPAIRING * self.kept.count() as f64) as usize,
             Upkeep::Repair => usize::MAX,
             Upkeep::Anew => 0,
         };
-        let nodes = self.with_graph(|graph, _| graph.forget_near(&before, most));
+        let nodes = self.with_graph(|graph, _| graph.forget_near(before, most)).flatten();
         let was_open = self.is_goal_open;
         self.look_at_goals();
         // Without a goal there is nothing to repair: every way would be raised, one by one.
         let may_repair = self.upkeep == Upkeep::Repair || was_open == self.is_goal_open;
         let repaired = nodes.filter(|_| may_repair);
         match &repaired {
-            Some(nodes) => self.with_graph(|graph, field| graph.tell(field, nodes)),
+            Some(nodes) => {
+                self.with_graph(|graph, field| graph.tell(field, nodes));
+            }
             None => self.field.begin_again(),
         }
         Updated { cells: changed.iter().map(Vec::len).sum(), repaired: repaired.map(|nodes| nodes.len()) }
@@ -157,7 +185,7 @@ impl Roadmap {
     ///
     /// # Errors
     /// [`NoRoute`]
-    pub fn path_from(&mut self, q: &Configuration<2>) -> Result<Route, NoRoute> {
+    pub fn path_from(&mut self, q: &[f64; 2]) -> Result<Route, NoRoute> {
         self.path_from_until(q, &|| true)
     }
 
@@ -166,13 +194,9 @@ impl Roadmap {
     ///
     /// # Errors
     /// [`NoRoute`]
-    pub fn path_from_until(
-        &mut self,
-        q: &Configuration<2>,
-        keep_going: &dyn Fn() -> bool,
-    ) -> Result<Route, NoRoute> {
-        if self.goals().any(|goal| goal == q) && sweep_is_free(&self.scene, q, q) {
-            return Ok(Route { path: JointPath(vec![*q]), cost: 0.0 });
+    pub fn path_from_until(&mut self, q: &[f64; 2], keep_going: &dyn Fn() -> bool) -> Result<Route, NoRoute> {
+        if self.goals().any(|goal| goal == q) && straight_move_is_free(&self.scene, q, q) {
+            return Ok(Route { path: JointPath(vec![(*q).into()]), cost: 0.0 });
         }
         if !self.is_goal_open {
             return Err(NoRoute::Goal);
@@ -201,6 +225,7 @@ impl Roadmap {
             let path = nodes.and_then(|nodes| graph.joint_path(q, &nodes));
             path.map(|path| Route { path, cost }).ok_or(NoRoute::NotFound)
         })
+        .unwrap_or(Err(NoRoute::NotFound))
     }
 
     /// The cost-to-go (m) over every cell, one sheet after the other, elbow-up first, and of the goals after that;
@@ -210,6 +235,7 @@ impl Roadmap {
             field.expand(graph, Until::WholeField, usize::MAX);
             field.field()
         })
+        .unwrap_or_default()
     }
 
     /// How many nodes D* expanded since the field was begun.
@@ -224,13 +250,15 @@ impl Roadmap {
         self.goals = goals;
     }
 
-    /// Does `work` with the graph of the scene as it is now.
-    fn with_graph<T>(&mut self, work: impl FnOnce(&ChangingGraph, &mut Dstar) -> T) -> T {
+    /// Does `work` with the graph of the scene as it is now, which has closed forms: [`new`](Self::new) has looked at the arm,
+    /// and no obstacle is let in with a motion.
+    fn with_graph<T>(&mut self, work: impl FnOnce(&ChangingGraph, &mut Dstar) -> T) -> Option<T> {
+        let scene = self.scene.two_link().ok()?;
         let kept = std::mem::take(&mut self.kept);
-        let graph = ChangingGraph::new(&self.scene, &self.space, self.may_flip, (kept, &self.goals));
+        let graph = ChangingGraph::new(scene, &self.space, self.may_flip, (kept, &self.goals));
         let found = work(&graph, &mut self.field);
         self.kept = graph.into_kept();
-        found
+        Some(found)
     }
 }
 

@@ -1,72 +1,74 @@
-use crate::scene::{Course, Mover, Scene};
+use super::known::KnownScene;
+use super::settings::{FAR, HOLD, STANDS};
 use crate::trajectory::{Motion, Piece, SpeedLimits, State, TICK, brake};
-use crate::verify::{Verdict, VerifySettings, clear_until, verify_among};
-
-/// How long a motion's end has to stay clear of obstacles whose course is known (s).
-pub(super) const HOLD: f64 = 8.0;
-
-/// How long it is best to stay clear (s), for motions that end elsewhere than at a goal.
-pub(super) const FAR: f64 = 25.0;
+use crate::verify::{Trajectory, Verdict, VerifySettings, clear_until, verify};
 
 /// One update's view of the world.
 pub(super) struct Search<'a> {
-    pub(super) scene: &'a Scene,
+    pub(super) known: &'a KnownScene,
     pub(super) limits: &'a [SpeedLimits],
-    pub(super) movers: &'a [Mover],
-    /// Those of them whose course is known.
-    certain: Vec<Mover>,
     pub(super) now: f64,
     pub(super) state: &'a State,
     pub(super) keep_going: &'a (dyn Fn() -> bool + Sync),
 }
 
-impl<'a> Search<'a> {
-    pub(super) fn new(
-        (scene, limits): (&'a Scene, &'a [SpeedLimits]),
-        movers: &'a [Mover],
-        now: f64,
-        state: &'a State,
-        keep_going: &'a (dyn Fn() -> bool + Sync),
-    ) -> Self {
-        let certain = movers
-            .iter()
-            .map(|mover| if is_doubtful(mover) { mover.on(Course::Absent) } else { mover.clone() })
-            .collect();
-        Self { scene, limits, movers, certain, now, state, keep_going }
-    }
+/// A motion that is safe, also where it ends.
+pub(super) struct Certified {
+    /// To the end of the motion.
+    pub(super) trajectory: Trajectory,
+    /// What [`Search::judge`] says of it.
+    pub(super) verdict: Verdict,
+}
 
+impl Certified {
+    pub(super) fn end(&self) -> f64 {
+        self.trajectory.motion().end()
+    }
+}
+
+impl Search<'_> {
     /// The verifier on `motion`: to its end among all, and for [`HOLD`] more among those whose course is known.
     pub(super) fn judge(&self, motion: &Motion) -> Verdict {
         let settings = VerifySettings::default();
-        if self.movers.iter().any(is_doubtful) {
-            let verdict = verify_among(self.scene, self.movers, motion, &settings, &|| true);
+        if !self.known.is_certain() {
+            let verdict = verify(self.known.all(), motion, &settings);
             if !verdict.is_safe() {
                 return verdict;
             }
         }
-        match held(motion, HOLD) {
-            Some(held) => verify_among(self.scene, &self.certain, &held, &settings, &|| true),
-            None => verify_among(self.scene, self.movers, motion, &settings, &|| true),
+        verify(self.known.certain(), &held(motion, HOLD), &settings)
+    }
+
+    /// `motion` as a trajectory if [`judge`](Self::judge) calls it safe.
+    ///
+    /// # Errors
+    /// The verdict, if it does not.
+    pub(super) fn certify(&self, motion: Motion) -> Result<Certified, Box<Verdict>> {
+        let settings = VerifySettings::default();
+        let (end, held) = (motion.end(), held(&motion, HOLD));
+        if self.known.is_certain() {
+            let whole = Trajectory::certify(self.known.all(), held, &settings)?;
+            let verdict = whole.verdict().clone();
+            // A motion that takes no time is its hold.
+            let trajectory = whole.clone().before(end).unwrap_or(whole);
+            return Ok(Certified { trajectory, verdict });
         }
+        let trajectory = Trajectory::certify(self.known.all(), motion, &settings)?;
+        let verdict = verify(self.known.certain(), &held, &settings);
+        if verdict.is_safe() { Ok(Certified { trajectory, verdict }) } else { Err(Box::new(verdict)) }
     }
 
     /// Until when the arm is safe that runs `motion` and then stands for `hold` (s); infinite if it is all along. A time
     /// when it is not, which need not be the first, if `any_will_do`.
     fn clear_until(&self, motion: &Motion, hold: f64, any_will_do: bool) -> f64 {
         let settings = VerifySettings::default();
-        let look = |movers: &[Mover], motion: &Motion| {
-            clear_until(self.scene, movers, motion, &settings, any_will_do)
-        };
-        if self.movers.iter().any(is_doubtful) {
-            let until = look(self.movers, motion);
+        if !self.known.is_certain() {
+            let until = clear_until(self.known.all(), motion, &settings, any_will_do);
             if until < f64::INFINITY {
                 return until;
             }
         }
-        match held(motion, hold) {
-            Some(held) => look(&self.certain, &held),
-            None => look(self.movers, motion),
-        }
+        clear_until(self.known.certain(), &held(motion, hold), &settings, any_will_do)
     }
 
     /// Until when the arm is safe that runs `motion` and then stands, as far as is looked ahead (s).
@@ -74,21 +76,14 @@ impl<'a> Search<'a> {
         self.clear_until(motion, FAR, false)
     }
 
-    /// Whether [`judge`](Self::judge) will call `motion` safe.
-    fn is_safe(&self, motion: &Motion) -> bool {
-        self.clear_until(motion, HOLD, true) == f64::INFINITY
-    }
-
-    pub(super) fn safe(&self, motion: Motion) -> Option<(Motion, Verdict)> {
-        if !self.is_safe(&motion) {
-            return None;
-        }
-        let verdict = self.judge(&motion);
-        verdict.is_safe().then_some((motion, verdict))
+    /// `motion`, if it is safe: a quick look first, for most are not.
+    pub(super) fn safe(&self, motion: Motion) -> Option<Certified> {
+        let may_be = self.clear_until(&motion, HOLD, true) == f64::INFINITY;
+        may_be.then(|| self.certify(motion).ok()).flatten()
     }
 
     pub(super) fn is_at_rest(&self) -> bool {
-        self.state.velocity.iter().chain(&self.state.acceleration).all(|rate| rate.abs() < 1e-9)
+        self.state.velocity.iter().chain(&self.state.acceleration).all(|rate| rate.abs() < STANDS)
     }
 
     pub(super) fn stop(&self) -> Option<Motion> {
@@ -119,13 +114,9 @@ pub(super) fn standing(q: &[f64], start: f64, duration: f64) -> Motion {
     Motion::of(Piece { start, duration, coefficients })
 }
 
-/// `motion`, and standing at its end for `hold` (s).
-fn held(motion: &Motion, hold: f64) -> Option<Motion> {
+/// `motion`, and standing at its end for `hold` (s); no more than `motion` where that begins later than numbers can tell.
+fn held(motion: &Motion, hold: f64) -> Motion {
     let end = motion.end();
-    motion.clone().then(standing(&motion.at(end).position, end, hold)).ok()
-}
-
-/// Whether nobody knows where it will be.
-fn is_doubtful(mover: &Mover) -> bool {
-    matches!(mover.course(), Course::Unknown { .. } | Course::Chase { .. })
+    let hold = standing(&motion.at(end).position, end, hold);
+    motion.clone().then(hold).unwrap_or_else(|_| motion.clone())
 }

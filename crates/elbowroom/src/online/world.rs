@@ -1,23 +1,22 @@
-use crate::arm::Configuration;
-use crate::geometry::{Circle, Point, Vector};
-use crate::path::clearances;
-use crate::scene::{Course, Mover, Obstacle, Scene, Shape, Sight};
+use super::known::KnownMotion;
+use super::placed::{placed, shifted};
+use crate::geometry::{Point, Vector};
+use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight};
 
-/// A scene in time: where its movers are, and what the arm knows of them.
+/// A scene in time: where its obstacles are, and what the arm knows of those that move.
 #[derive(Debug, Clone)]
 pub struct World {
     scene: Scene,
-    movers: Vec<Mover>,
-    /// Where those that chase are, as shifts from where the scene has them (m).
+    /// Where obstacles that chase are, as shifts from where the scene has them (m), one for each obstacle.
     chased: Vec<Vector>,
     now: f64,
 }
 
 impl World {
-    /// The world of `scene` at time 0, with these of its obstacles moving.
-    pub fn new(scene: Scene, movers: Vec<Mover>) -> Self {
-        let chased = vec![Vector::new(0.0, 0.0); movers.len()];
-        Self { scene, movers, chased, now: 0.0 }
+    /// The world of `scene` at time 0. The motion of its obstacles is what they really do, whatever the arm knows.
+    pub fn new(scene: Scene) -> Self {
+        let chased = vec![Vector::new(0.0, 0.0); scene.obstacles().len()];
+        Self { scene, chased, now: 0.0 }
     }
 
     /// The scene, its obstacles where it has them.
@@ -30,13 +29,17 @@ impl World {
         self.now
     }
 
-    /// Time goes on to `now` (s) while the arm is at `q`: those that chase go after its tip.
-    pub fn advance(&mut self, now: f64, q: &Configuration<2>) {
-        let tip = self.scene.arm.tip(q);
-        for i in 0..self.movers.len() {
-            let Course::Chase { keep_off } = *self.movers[i].course() else { continue };
+    /// Time goes on to `now` (s) while the arm is at `q` (rad): obstacles that chase go after its tip.
+    ///
+    /// # Panics
+    /// Unless `q` has a position for each joint.
+    pub fn advance(&mut self, now: f64, q: &[f64]) {
+        let tip = self.scene.arm().tip(q);
+        for i in 0..self.chased.len() {
+            let Some(motion) = &self.scene.obstacles()[i].motion else { continue };
+            let Course::Chase { keep_off } = *motion.course() else { continue };
             let way = tip - (self.center(i) + self.chased[i]);
-            let most = self.movers[i].greatest_speed() * (now - self.now);
+            let most = motion.greatest_speed() * (now - self.now);
             let step = way * (most / way.length().max(most).max(f64::MIN_POSITIVE));
             let shift = self.chased[i] + step;
             if self.clearance(i, shift, q) > keep_off {
@@ -46,51 +49,55 @@ impl World {
         self.now = now;
     }
 
-    /// Where each mover is now, as a shift from where the scene has it (m).
+    /// Where each obstacle that moves is now, as a shift from where the scene has it (m), in the scene's order.
     pub fn shifts(&self) -> Vec<Vector> {
-        (0..self.movers.len()).map(|i| self.shift(i)).collect()
+        self.moving().map(|(i, motion)| self.shift(i, motion)).collect()
     }
 
-    /// The obstacles where they are now.
+    /// The obstacles where they are now, standing still.
     pub fn obstacles(&self) -> Vec<Obstacle> {
-        let mut obstacles = self.scene.obstacles.clone();
-        for (i, mover) in self.movers.iter().enumerate() {
-            obstacles[mover.obstacle()].shape =
-                shifted(&self.scene.obstacles[mover.obstacle()].shape, self.shift(i));
-        }
-        obstacles
+        placed(&self.scene, |i, obstacle| obstacle.motion.as_ref().map(|motion| self.shift(i, motion)))
     }
 
-    /// The movers as the arm, which is at `q`, knows them now: their course, that they may go anywhere, or that there is
-    /// nothing.
-    pub fn seen_from(&self, q: &Configuration<2>) -> Vec<Mover> {
-        (0..self.movers.len())
-            .map(|i| {
-                let mover = &self.movers[i];
-                let is_seen = match mover.sight() {
+    /// The obstacles that move as the arm, which is at `q` (rad), knows them now: their course, that they may go anywhere,
+    /// or that there is nothing.
+    ///
+    /// # Panics
+    /// Unless `q` has a position for each joint.
+    pub fn seen_from(&self, q: &[f64]) -> Vec<KnownMotion> {
+        self.moving()
+            .map(|(obstacle, motion)| {
+                let shift = self.shift(obstacle, motion);
+                let is_seen = match motion.sight() {
                     Sight::Always => true,
                     Sight::From(time) => self.now >= time,
-                    Sight::Within(radius) => self.clearance(i, self.shift(i), q) <= radius,
+                    Sight::Within(radius) => self.clearance(obstacle, shift, q) <= radius,
                 };
-                let course = match (is_seen, mover.course()) {
+                let course = match (is_seen, motion.course()) {
                     (false, _) => Course::Absent,
-                    (true, Course::Chase { .. }) => Course::Unknown { seen: self.now, shift: self.shift(i) },
+                    (true, Course::Chase { .. }) => Course::Unknown { seen: self.now, shift },
                     (true, course) => course.clone(),
                 };
-                mover.on(course)
+                KnownMotion { obstacle, motion: motion.on(course) }
             })
             .collect()
     }
 
-    fn shift(&self, i: usize) -> Vector {
-        match self.movers[i].course() {
-            Course::Chase { .. } => self.chased[i],
+    /// The obstacles that move, by their number.
+    fn moving(&self) -> impl Iterator<Item = (usize, &ObstacleMotion)> {
+        let obstacles = self.scene.obstacles().iter().enumerate();
+        obstacles.filter_map(|(i, obstacle)| Some((i, obstacle.motion.as_ref()?)))
+    }
+
+    fn shift(&self, obstacle: usize, motion: &ObstacleMotion) -> Vector {
+        match motion.course() {
+            Course::Chase { .. } => self.chased[obstacle],
             course => course.shift_at(self.now),
         }
     }
 
-    fn center(&self, i: usize) -> Point {
-        match &self.scene.obstacles[self.movers[i].obstacle()].shape {
+    fn center(&self, obstacle: usize) -> Point {
+        match &self.scene.obstacles()[obstacle].shape {
             Shape::Circle(circle) => circle.center,
             Shape::Polygon(polygon) => {
                 let vertices = polygon.vertices();
@@ -101,23 +108,11 @@ impl World {
         }
     }
 
-    /// Between the arm at `q` and a mover shifted by so much (m).
-    fn clearance(&self, i: usize, shift: Vector, q: &Configuration<2>) -> f64 {
-        let obstacle = &self.scene.obstacles[self.movers[i].obstacle()];
-        let alone = Scene {
-            arm: self.scene.arm,
-            grid: self.scene.grid,
-            obstacles: vec![Obstacle { name: None, shape: shifted(&obstacle.shape, shift) }],
-            tasks: Vec::new(),
-        };
-        clearances(&alone, &q.0).into_iter().fold(f64::INFINITY, f64::min)
-    }
-}
-
-/// `shape` moved by so much (m).
-pub(super) fn shifted(shape: &Shape, by: Vector) -> Shape {
-    match shape {
-        Shape::Circle(circle) => Shape::Circle(Circle { center: circle.center + by, ..*circle }),
-        Shape::Polygon(polygon) => Shape::Polygon(polygon.shifted(by)),
+    /// Between the arm at `q` and an obstacle shifted by so much (m).
+    fn clearance(&self, obstacle: usize, shift: Vector, q: &[f64]) -> f64 {
+        let arm = self.scene.arm();
+        let shifted = Obstacle::still(shifted(&self.scene.obstacles()[obstacle].shape, shift));
+        let distances = arm.link_segments(q).map(|link| shifted.distance_to_segment(link));
+        distances.map(|distance| distance - arm.half_width()).fold(f64::INFINITY, f64::min)
     }
 }

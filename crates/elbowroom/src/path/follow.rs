@@ -3,10 +3,9 @@ use std::f64::consts::PI;
 use thiserror::Error;
 
 use super::{JointPath, TipPath};
-use crate::arm::{Configuration, JointLimits, Posture, TwoLinkArm};
+use crate::arm::{Configuration, Posture, TwoLink};
 use crate::free_space::configurations;
-use crate::geometry::angle_difference;
-use crate::scene::{Place, Scene};
+use crate::scene::{Place, TwoLinkScene};
 
 /// What an arm would have to do between two neighbouring places of a tip path, and cannot.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +58,7 @@ pub enum FollowError {
 ///
 /// # Errors
 /// [`FollowError`] when a place has no free configuration.
-pub fn follow(scene: &Scene, path: &TipPath) -> Result<Followed, FollowError> {
+pub fn follow(scene: TwoLinkScene<'_>, path: &TipPath) -> Result<Followed, FollowError> {
     let choices = path
         .0
         .iter()
@@ -69,14 +68,14 @@ pub fn follow(scene: &Scene, path: &TipPath) -> Result<Followed, FollowError> {
             Err(_) => Err(FollowError::NoConfiguration { index, x: tip.x, y: tip.y }),
         })
         .collect::<Result<Vec<_>, _>>()?;
-    Ok(join(&scene.arm, &choices, &best_choice(&scene.arm, &choices)))
+    Ok(join(scene.arm(), &choices, &best_choice(scene.arm(), &choices)))
 }
 
 /// Fewest jumps first, then joint travel (rad).
 type Effort = (usize, f64);
 
 /// Which choice to take at each place: dynamic programming from the first place to the last.
-fn best_choice(arm: &TwoLinkArm, choices: &[Vec<Configuration<2>>]) -> Vec<usize> {
+fn best_choice(arm: &TwoLink, choices: &[Vec<[f64; 2]>]) -> Vec<usize> {
     let mut efforts: Vec<Effort> = choices.first().map_or(Vec::new(), |first| vec![(0, 0.0); first.len()]);
     let mut origins: Vec<Vec<usize>> = vec![Vec::new()];
     for pair in choices.windows(2) {
@@ -85,7 +84,7 @@ fn best_choice(arm: &TwoLinkArm, choices: &[Vec<Configuration<2>>]) -> Vec<usize
         for to in &pair[1] {
             let through = |i: usize| {
                 let from = &pair[0][i];
-                let step = step_between(arm, from, to);
+                let step = arm.difference(from, to);
                 let jumps = usize::from(jump_between(from, to, &step).is_some());
                 (efforts[i].0 + jumps, efforts[i].1 + step[0].hypot(step[1]))
             };
@@ -112,8 +111,8 @@ fn best_choice(arm: &TwoLinkArm, choices: &[Vec<Configuration<2>>]) -> Vec<usize
 }
 
 /// The chosen configurations with the turns of continuous joints counted, and their jumps.
-fn join(arm: &TwoLinkArm, choices: &[Vec<Configuration<2>>], chosen: &[usize]) -> Followed {
-    let mut joints: Vec<Configuration<2>> = Vec::with_capacity(choices.len());
+fn join(arm: &TwoLink, choices: &[Vec<[f64; 2]>], chosen: &[usize]) -> Followed {
+    let mut joints: Vec<[f64; 2]> = Vec::with_capacity(choices.len());
     let mut jumps = Vec::new();
     for (index, (choice, &i)) in choices.iter().zip(chosen).enumerate() {
         let q = choice[i];
@@ -121,24 +120,16 @@ fn join(arm: &TwoLinkArm, choices: &[Vec<Configuration<2>>], chosen: &[usize]) -
             joints.push(q);
             continue;
         };
-        let step = step_between(arm, last, &q);
+        let step = arm.difference(last, &q);
         if let Some(kind) = jump_between(last, &q, &step) {
             jumps.push(Jump { index: index - 1, kind });
         }
-        joints.push(Configuration(std::array::from_fn(|j| last.0[j] + step[j])));
+        joints.push(std::array::from_fn(|j| last[j] + step[j]));
     }
-    Followed { joints: JointPath(joints), jumps }
+    Followed { joints: JointPath(joints.into_iter().map(Configuration::from).collect()), jumps }
 }
 
-/// How far each joint turns from `from` to `to` (rad): a continuous one the short way round.
-fn step_between(arm: &TwoLinkArm, from: &Configuration<2>, to: &Configuration<2>) -> [f64; 2] {
-    std::array::from_fn(|j| match arm.joints()[j].limits {
-        JointLimits::Continuous => angle_difference(from.0[j], to.0[j]),
-        JointLimits::Range { .. } => to.0[j] - from.0[j],
-    })
-}
-
-fn jump_between(from: &Configuration<2>, to: &Configuration<2>, step: &[f64; 2]) -> Option<JumpKind> {
+fn jump_between(from: &[f64; 2], to: &[f64; 2], step: &[f64; 2]) -> Option<JumpKind> {
     match (Posture::of(from), Posture::of(to)) {
         (Some(a), Some(b)) if a != b => Some(JumpKind::Posture),
         _ => step.iter().position(|angle| angle.abs() > PI).map(|j| JumpKind::Stop { joint: j + 1 }),

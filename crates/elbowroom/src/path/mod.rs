@@ -3,15 +3,15 @@
 mod follow;
 mod joint_path;
 mod simplify;
-mod sweep;
+mod straight_move;
 mod tip_path;
-mod turn;
 
 pub use follow::{FollowError, Followed, Jump, JumpKind, follow};
 pub use joint_path::JointPath;
 pub use simplify::simplify;
-pub use sweep::{
-    CERTIFIED_CLEARANCE, certified_clearance, link_clearances, motion_bounds, sweep_is_free, sweep_keeps,
+pub(crate) use straight_move::straight_move_clears;
+pub use straight_move::{
+    CERTIFIED_CLEARANCE, link_clearances, motion_bounds, self_clearance, straight_move_is_free,
+    straight_move_keeps,
 };
 pub use tip_path::TipPath;
-pub use turn::{clearances, self_clearance, turn_is_free};

@@ -1,4 +1,4 @@
-use crate::arm::Arm;
+use crate::arm::{Arm, Configuration, lerp};
 
 /// Places of a path whose straight joint turns keep all ends of links within `tolerance` (m) of every place left
 /// out; the ends are always among them.
@@ -6,7 +6,7 @@ use crate::arm::Arm;
 /// # Reference
 /// Douglas and Peucker, *Algorithms for the reduction of the number of points*, Cartographica 10(2), 1973,
 /// with the arm's own distance in place of the plane's.
-pub fn simplify<Q: AsRef<[f64]>>(arm: &impl Arm, places: &[Q], tolerance: f64) -> Vec<usize> {
+pub fn simplify<Q: AsRef<[f64]>>(arm: &Arm, places: &[Q], tolerance: f64) -> Vec<usize> {
     let mut kept = vec![false; places.len()];
     let mut stretches = Vec::new();
     if let Some(last) = places.len().checked_sub(1) {
@@ -31,14 +31,14 @@ pub fn simplify<Q: AsRef<[f64]>>(arm: &impl Arm, places: &[Q], tolerance: f64) -
 
 /// How far ends of links at `q` are from where the straight turn from `from` to `to` has them when it is
 /// nearest to `q` in configuration space (m).
-fn deviation(arm: &impl Arm, from: &[f64], to: &[f64], q: &[f64]) -> f64 {
+fn deviation(arm: &Arm, from: &[f64], to: &[f64], q: &[f64]) -> f64 {
     let (mut along, mut squared) = (0.0, 0.0);
     for ((from, to), q) in from.iter().zip(to).zip(q) {
         along += (q - from) * (to - from);
         squared += (to - from) * (to - from);
     }
     let fraction = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
-    let near: Vec<f64> = from.iter().zip(to).map(|(from, to)| from + (to - from) * fraction).collect();
+    let near: Configuration = lerp(from, to, fraction);
     let pairs = arm.link_ends(&near).zip(arm.link_ends(q));
     pairs.map(|(near, there)| near.distance(there)).fold(0.0, f64::max)
 }

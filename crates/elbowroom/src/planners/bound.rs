@@ -1,13 +1,13 @@
 //! What no motion can cost less than, and tasks that no motion can do.
 
 use super::chart::{JointChart, Walls, sheet_ranges, tip_chart};
+use super::endpoints::Endpoints;
 use super::limits::{motion_limits, stated_limits};
-use super::problem::Problem;
 use super::settings::{Objective, Pace, PlanSettings};
 use super::{Monitor, NoPath, PlanError, Stage};
-use crate::arm::{Arm, Configuration, JointLimits};
+use crate::arm::JointLimits;
 use crate::geometry::wrap_angle;
-use crate::scene::{Scene, Task};
+use crate::scene::{Scene, TwoLinkScene};
 use crate::surface::{Measure, SurfacePlace};
 use crate::trajectory::SpeedLimits;
 use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
@@ -34,8 +34,8 @@ pub(crate) const COARSE_DISTANCE: f64 = 1e-2;
 /// # Errors
 /// [`PlanError::NoPath`], [`PlanError::Stopped`]
 pub(crate) fn least_cost(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     settings: &PlanSettings,
     distance: f64,
     monitor: &impl Monitor,
@@ -43,10 +43,10 @@ pub(crate) fn least_cost(
     monitor.stage(Stage::Bound);
     // A duration that was asked for heeds only the limits that the scene states.
     let limits = match settings.pace {
-        Pace::Fastest => motion_limits(&scene.arm).0,
-        Pace::Duration(_) => stated_limits(&scene.arm),
+        Pace::Fastest => motion_limits(scene.scene().arm()).0,
+        Pace::Duration(_) => stated_limits(scene.scene().arm()),
     };
-    match prove(scene, problem, settings.objective, &limits, distance, monitor)? {
+    match prove(scene, ends, settings.objective, &limits, distance, monitor)? {
         Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
         Proved::AtLeast(cost) => Ok(Some(cost)),
         Proved::Nothing => Ok(None),
@@ -56,19 +56,18 @@ pub(crate) fn least_cost(
 /// [`least_cost`] of a first bound for an arm of two links; `None` for any other.
 ///
 /// # Errors
-/// [`PlanError`] for a task whose start or goal is not free, and as [`least_cost`]
-pub(crate) fn coarse_least_cost<A: Arm>(
-    scene: &Scene<A>,
-    task: &Task,
+/// As [`least_cost`]
+pub(crate) fn coarse_least_cost(
+    scene: &Scene,
+    ends: &Endpoints,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Option<f64>, PlanError> {
-    let Some(scene) = scene.two_link() else { return Ok(None) };
-    let problem = Problem::new(&scene, task)?;
-    if problem.already_there().is_some() {
+    let Ok(scene) = scene.two_link() else { return Ok(None) };
+    if ends.already_there().is_some() {
         return Ok(Some(0.0));
     }
-    least_cost(&scene, &problem, settings, COARSE_DISTANCE, monitor)
+    least_cost(scene, ends, settings, COARSE_DISTANCE, monitor)
 }
 
 /// What can be proved with walls about `distance` (rad) inside the obstacles.
@@ -76,8 +75,8 @@ pub(crate) fn coarse_least_cost<A: Arm>(
 /// # Errors
 /// [`PlanError::Stopped`]
 pub(crate) fn prove(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     objective: Objective,
     limits: &[SpeedLimits],
     distance: f64,
@@ -85,17 +84,16 @@ pub(crate) fn prove(
 ) -> Result<Proved, PlanError> {
     let measure = measure_of(objective, limits);
     for share in TRIED {
-        match with_walls(scene, problem, measure, share * distance, &|| monitor.keep_going()) {
+        match with_walls(scene, ends, measure, share * distance, &|| monitor.keep_going()) {
             Ok(OverJoints::Parted(reachable)) => {
-                let [starts, goals] =
-                    [&problem.starts, &problem.goals].map(|ends| ends.iter().map(|q| q.0).collect());
+                let [starts, goals] = ends.pairs();
                 return Ok(Proved::NoPath(NoPath { reachable, starts, goals }));
             }
             Ok(OverJoints::AtLeast(way)) => {
                 return Ok(Proved::AtLeast(match objective {
                     Objective::Joint => way,
                     Objective::Time => from_rest_to_rest(way, limits),
-                    Objective::Tip => tip_bound(scene, problem, distance, &|| monitor.keep_going())?,
+                    Objective::Tip => tip_bound(scene, ends, distance, &|| monitor.keep_going())?,
                 }));
             }
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -126,27 +124,27 @@ fn from_rest_to_rest(way: f64, limits: &[SpeedLimits]) -> f64 {
 /// The shortest way of the tip among obstacles and around what it cannot reach, whatever the links touch (m): the
 /// verified bound, or the straight way where it was not accepted.
 fn tip_bound(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     distance: f64,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<f64, PlanError> {
     let walls = Walls { inside: true, distance };
+    let [starts, goals] = ends.pairs();
     let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
-    let place = |q: &Configuration<2>| Some((*q, chart.place(scene.arm.tip(q))?));
-    if let Some(starts) = problem.starts.iter().map(place).collect::<Option<Vec<_>>>() {
-        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &problem.goals };
+    let place = |q: &[f64; 2]| Some((*q, chart.place(scene.arm().tip(q))?));
+    if let Some(starts) = starts.iter().map(place).collect::<Option<Vec<_>>>() {
+        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &goals };
         match bound_over_tips(scene, &claim, keep_going) {
             Ok(Reachability::AtLeast { cost, .. }) => return Ok(cost),
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
             Ok(Reachability::Parted) | Err(_) => {}
         }
     }
-    let tips = |ends: &[Configuration<2>]| ends.iter().map(|q| scene.arm.tip(q)).collect::<Vec<_>>();
-    let goals = tips(&problem.goals);
-    let straight = tips(&problem.starts)
-        .into_iter()
-        .flat_map(|start| goals.iter().map(move |goal| start.distance(*goal)));
+    let tips = |ends: &[[f64; 2]]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
+    let goals = tips(&goals);
+    let straight =
+        tips(&starts).into_iter().flat_map(|start| goals.iter().map(move |goal| start.distance(*goal)));
     Ok(straight.fold(f64::INFINITY, f64::min))
 }
 
@@ -157,8 +155,8 @@ enum OverJoints {
 }
 
 fn with_walls(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     measure: Measure,
     distance: f64,
     keep_going: &(dyn Fn() -> bool + Sync),
@@ -166,20 +164,21 @@ fn with_walls(
     let walls = Walls { inside: true, distance };
     let mut least = f64::INFINITY;
     let mut open = Vec::new();
-    let ranges = sheet_ranges(scene, &problem.starts, problem.may_flip);
+    let [starts, goals] = ends.pairs();
+    let ranges = sheet_ranges(scene, &starts, ends.keep_posture);
     // A start on no sheet could go anywhere, for all that is known.
-    let on_none = |q: &&Configuration<2>| !ranges.iter().any(|range| is_in(scene, *range, q));
-    if let Some(q) = problem.starts.iter().find(on_none) {
-        return Err(BoundError::Place { q: q.0 });
+    let on_none = |q: &&[f64; 2]| !ranges.iter().any(|range| is_in(scene, *range, q));
+    if let Some(q) = starts.iter().find(on_none) {
+        return Err(BoundError::Place { q: *q });
     }
     for range in ranges {
         let chart = JointChart::new(scene, 0.0, range, walls, keep_going).ok_or(BoundError::Stopped)?;
-        let starts = on_chart(scene, &chart, range, &problem.starts)?;
+        let starts = on_chart(scene, &chart, range, &starts)?;
         let claim = OpenJoints {
             surface: &chart.sewn.surface,
             starts: &starts,
-            goals: &problem.goals,
-            keeps_posture: !problem.may_flip,
+            goals: &goals,
+            keeps_posture: ends.keep_posture,
         };
         match bound_over_joints(scene, &claim, measure, keep_going)? {
             Reachability::AtLeast { cost, .. } => least = least.min(cost),
@@ -200,20 +199,20 @@ fn with_walls(
 /// # Errors
 /// [`BoundError::Place`] where one should be on it and is not.
 fn on_chart(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     chart: &JointChart,
     range: [f64; 2],
-    places: &[Configuration<2>],
-) -> Result<Vec<(Configuration<2>, SurfacePlace)>, BoundError> {
-    let place = |q: &Configuration<2>| Ok((*q, chart.place(q).ok_or(BoundError::Place { q: q.0 })?));
+    places: &[[f64; 2]],
+) -> Result<Vec<([f64; 2], SurfacePlace)>, BoundError> {
+    let place = |q: &[f64; 2]| Ok((*q, chart.place(q).ok_or(BoundError::Place { q: *q })?));
     places.iter().filter(|q| is_in(scene, range, q)).map(place).collect()
 }
 
 /// Whether the second joint of `q` lies in `range` (rad), whole turns of a continuous one aside.
-fn is_in(scene: &Scene, range: [f64; 2], q: &Configuration<2>) -> bool {
-    let angle = match scene.arm.joints()[1].limits {
-        JointLimits::Continuous => wrap_angle(q.0[1]),
-        JointLimits::Range { .. } => q.0[1],
+fn is_in(scene: TwoLinkScene<'_>, range: [f64; 2], q: &[f64; 2]) -> bool {
+    let angle = match scene.arm().joints()[1].limits {
+        JointLimits::Continuous => wrap_angle(q[1]),
+        JointLimits::Range { .. } => q[1],
     };
     (range[0]..=range[1]).contains(&angle)
 }

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use thiserror::Error;
 
-use super::settings::Planner;
+use super::planner::Planner;
 use super::{CbpsoSettings, IkPsoSettings, Initialisation, NscPsoSettings, PsoSettings};
 use crate::swarm::{GuidedSwarmSettings, Neighbourhood};
 

@@ -1,15 +1,15 @@
 //! Certified paths that are worth being made into motions: those of the grid, by D* and the swarm, and those that leave it.
 
 use super::choose::shortlist;
+use super::endpoints::Endpoints;
 use super::optimal::{Search, over_joints, over_tips};
 use super::posture_graph::PostureGraph;
-use super::problem::Problem;
-use super::settings::{Objective, PlanSettings, Planner};
+use super::settings::{Objective, PlanSettings};
 use super::{Effort, Monitor, PlanError, Stage};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::path::JointPath;
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 use crate::search::{Dstar, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
 use crate::trajectory::SpeedLimits;
@@ -49,22 +49,24 @@ pub(crate) struct Candidate {
     pub(crate) tolerance: f64,
 }
 
-/// D*'s own paths over places and postures, and of those that the swarm draws the ones that promise most.
+/// D*'s own paths over places and postures, and of those that a swarm draws, if one shall, the ones that promise most.
 pub(crate) fn over_grid(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
+    swarm: Option<&GuidedSwarmSettings>,
     settings: &PlanSettings,
     limits: &[SpeedLimits],
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
-    let not_found = || PlanError::NotFound { step: scene.grid.step() };
+    let not_found = || PlanError::NotFound { step: scene.grid().step() };
     monitor.stage(Stage::FreeSpace);
     let space = FreeSpace::of_until(scene, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
 
     monitor.stage(Stage::CostToGo);
-    let mut graph = PostureGraph::new(scene, &space, problem.may_flip);
-    let goals: Vec<usize> = problem.goals.iter().map(|q| graph.insert(*q)).collect();
-    let starts: Vec<usize> = problem.starts.iter().map(|q| graph.insert(*q)).collect();
+    let mut graph = PostureGraph::new(scene, &space, !ends.keep_posture);
+    let [starts, goals] = ends.pairs();
+    let goals: Vec<usize> = goals.into_iter().map(|q| graph.insert(q)).collect();
+    let starts: Vec<usize> = starts.into_iter().map(|q| graph.insert(q)).collect();
     let mut field = Dstar::new(graph.len());
     for &goal in &goals {
         field.insert_goal(goal, 0.0)?;
@@ -92,7 +94,7 @@ pub(crate) fn over_grid(
     let mut effort = None;
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        if let Planner::DstarPso(swarm) = &settings.planner {
+        if let Some(swarm) = swarm {
             let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
             let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
             let terrain = Terrain {
@@ -122,7 +124,7 @@ pub(crate) fn over_grid(
     };
     // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
     let mut chosen = joined(own)?;
-    chosen.extend(shortlist(scene, limits, settings.objective, joined(drawn)?, SHORTLIST));
+    chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SHORTLIST));
     let candidate = |(tip_travel, path)| Candidate { path, tip_travel, tolerance: GRID_TOLERANCE };
     Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths, effort })
 }
@@ -130,23 +132,23 @@ pub(crate) fn over_grid(
 /// Paths that leave the grid: over the joints or, for tip travel, over the tip; for time what D* finds as well, which
 /// may have fewer corners to slow down at.
 pub(crate) fn off_grid(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     objective: Objective,
     limits: &[SpeedLimits],
     search: Search,
     monitor: &impl Monitor,
 ) -> Result<Found, PlanError> {
     let on_grid = || {
-        let settings = PlanSettings { planner: Planner::Dstar, objective, ..PlanSettings::default() };
-        match over_grid(scene, problem, &settings, limits, monitor) {
+        let settings = PlanSettings { objective, ..PlanSettings::default() };
+        match over_grid(scene, ends, None, &settings, limits, monitor) {
             Ok(found) => Ok(found.candidates),
             Err(PlanError::NotFound { .. }) => Ok(Vec::new()),
             Err(other) => Err(other),
         }
     };
     let over_joints = || -> Result<Vec<Candidate>, PlanError> {
-        let paths = over_joints(scene, problem, objective, limits, search, monitor)?;
+        let paths = over_joints(scene, ends, objective, limits, search, monitor)?;
         Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
     };
     let candidates = match objective {
@@ -180,6 +182,6 @@ pub(crate) fn off_grid(
     Ok(Found { candidates, paths, effort: None })
 }
 
-fn candidate(scene: &Scene, path: JointPath) -> Candidate {
-    Candidate { tip_travel: path.tip_travel(&scene.arm), path, tolerance: TAUT_TOLERANCE }
+fn candidate(scene: TwoLinkScene<'_>, path: JointPath) -> Candidate {
+    Candidate { tip_travel: path.tip_travel(scene.scene().arm()), path, tolerance: TAUT_TOLERANCE }
 }

@@ -1,10 +1,10 @@
 use super::posture_graph::{FLIP_BAND, LEAST_COST, PostureGraph};
 use super::sheets::{Kept, Record};
-use crate::arm::{Configuration, Posture};
+use crate::arm::Posture;
 use crate::free_space::{FreeSpace, ShortWays, cells_near_moved};
 use crate::geometry::Point;
 use crate::path::JointPath;
-use crate::scene::{Obstacle, Scene};
+use crate::scene::{Obstacle, TwoLinkScene};
 use crate::search::{Dstar, Graph};
 
 /// A [`PostureGraph`] whose obstacles move: what is known of it is handed on from scene to scene, and edges that are
@@ -18,7 +18,7 @@ pub(crate) struct ChangingGraph<'a> {
 
 /// A goal configuration, free or not, and the nodes around it.
 pub(crate) struct Goal {
-    pub(crate) q: Configuration<2>,
+    pub(crate) q: [f64; 2],
     tip: Point,
     joined: Vec<Join>,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Goal {
 /// An edge from a goal.
 struct Join {
     node: usize,
-    to: Configuration<2>,
+    to: [f64; 2],
     cost: f64,
     is_certified: bool,
 }
@@ -41,7 +41,7 @@ impl<'a> ChangingGraph<'a> {
     /// The graph over the map of `scene`; `kept` and `goals` are those of another of the same arm and grid, told by
     /// [`obstacles_moved`](Self::obstacles_moved) of every change since.
     pub(crate) fn new(
-        scene: &'a Scene,
+        scene: TwoLinkScene<'a>,
         space: &'a FreeSpace,
         may_flip: bool,
         (kept, goals): (Kept, &'a [Goal]),
@@ -61,11 +61,11 @@ impl<'a> ChangingGraph<'a> {
     }
 
     /// `configurations` as goals of this graph, whose edges are looked at now.
-    pub(crate) fn goals_at(&self, configurations: &[Configuration<2>]) -> Vec<Goal> {
+    pub(crate) fn goals_at(&self, configurations: &[[f64; 2]]) -> Vec<Goal> {
         let graph = &self.graph;
-        let goal = |&q: &Configuration<2>| {
-            let tip = graph.scene.arm.tip(&q);
-            let around = graph.scene.grid.corners(tip).flat_map(|cell| graph.sheets.over(cell));
+        let goal = |&q: &[f64; 2]| {
+            let tip = graph.scene.arm().tip(&q);
+            let around = graph.scene.grid().corners(tip).flat_map(|cell| graph.sheets.over(cell));
             let joined = around.filter_map(|node| {
                 let to = graph.sheets.stand(node)?;
                 let cost = graph.cost(tip, graph.tip(node), &q, &to);
@@ -96,12 +96,12 @@ impl<'a> ChangingGraph<'a> {
 
     fn near_moved(&self, before: &[Obstacle], most: usize) -> Option<Vec<usize>> {
         let PostureGraph { scene, sheets, .. } = &self.graph;
-        let step = scene.grid.step();
+        let step = scene.grid().step();
         // Diagonals, and a hair for rounding.
         let ways = ShortWays { length: 1.4143 * step, band: 1.01 * FLIP_BAND * step };
         let mut near = Vec::new();
         for posture in Posture::ALL {
-            for cell in cells_near_moved(scene, before, posture, ways, most.saturating_sub(near.len()))? {
+            for cell in cells_near_moved(*scene, before, posture, ways, most.saturating_sub(near.len()))? {
                 near.extend(sheets.over(cell).filter(|&node| sheets.posture(node) == posture));
             }
         }
@@ -147,26 +147,26 @@ impl<'a> ChangingGraph<'a> {
             let Some(neighbour) = neighbour else { continue };
             // The other four are those of the neighbours, which the same obstacle is near to.
             if direction < 4 {
-                shortcut(node - cell + neighbour, scene.grid.neighbour_distance(direction));
+                shortcut(node - cell + neighbour, scene.grid().neighbour_distance(direction));
             }
             if crosses {
                 let across = sheets.over(neighbour).filter(|&other| self.is_across(node, other));
-                across.for_each(|other| shortcut(other, scene.grid.neighbour_distance(direction)));
+                across.for_each(|other| shortcut(other, scene.grid().neighbour_distance(direction)));
             }
         }
         if crosses {
             let across = sheets.over(cell).filter(|&other| self.is_across(node, other));
-            across.for_each(|other| shortcut(other, LEAST_COST * scene.grid.step()));
+            across.for_each(|other| shortcut(other, LEAST_COST * scene.grid().step()));
         }
     }
 
     /// The edges from `q` to nodes around it, those of goals near by among them: those that are certified, with their
     /// costs.
-    pub(crate) fn around(&self, q: &Configuration<2>) -> Vec<(usize, f64)> {
+    pub(crate) fn around(&self, q: &[f64; 2]) -> Vec<(usize, f64)> {
         let PostureGraph { scene, sheets, .. } = &self.graph;
-        let tip = scene.arm.tip(q);
+        let tip = scene.arm().tip(q);
         let mut joined = Vec::new();
-        for node in scene.grid.corners(tip).flat_map(|cell| sheets.over(cell)) {
+        for node in scene.grid().corners(tip).flat_map(|cell| sheets.over(cell)) {
             if let Some(to) = sheets.configuration(node)
                 && self.graph.is_certified(q, &to)
             {
@@ -174,7 +174,7 @@ impl<'a> ChangingGraph<'a> {
             }
         }
         for (node, goal) in self.goal_nodes().zip(self.goals) {
-            if goal.tip.distance(tip) <= 2.0 * scene.grid.step() && self.graph.is_certified(&goal.q, q) {
+            if goal.tip.distance(tip) <= 2.0 * scene.grid().step() && self.graph.is_certified(&goal.q, q) {
                 joined.push((node, self.graph.cost(goal.tip, tip, &goal.q, q)));
             }
         }
@@ -182,7 +182,7 @@ impl<'a> ChangingGraph<'a> {
     }
 
     /// The configurations from `q` along `nodes`, joined by certified straight turns.
-    pub(crate) fn joint_path(&self, q: &Configuration<2>, nodes: &[usize]) -> Option<JointPath> {
+    pub(crate) fn joint_path(&self, q: &[f64; 2], nodes: &[usize]) -> Option<JointPath> {
         let mut configurations = vec![*q];
         for &node in nodes {
             configurations.push(match node.checked_sub(self.graph.sheets.len()) {
@@ -203,7 +203,7 @@ impl<'a> ChangingGraph<'a> {
             Some(direction) if sheets.same_sheet(node, other) => self
                 .graph
                 .sheet_edge(node, (place, &from), other, direction)
-                .then(|| scene.grid.neighbour_distance(direction)),
+                .then(|| scene.grid().neighbour_distance(direction)),
             _ => self.graph.across(node, (place, &from), other, direction),
         }
     }
@@ -274,7 +274,10 @@ impl Graph for ChangingGraph<'_> {
             let is_certified = look
                 .as_ref()
                 .is_some_and(|(place, from)| self.graph.sheet_edge(node, (*place, from), other, direction));
-            visit(other, if is_certified { scene.grid.neighbour_distance(direction) } else { f64::INFINITY });
+            visit(
+                other,
+                if is_certified { scene.grid().neighbour_distance(direction) } else { f64::INFINITY },
+            );
             if crosses {
                 self.visit_across(node, look.as_ref(), (neighbour, Some(direction)), &mut visit);
             }
@@ -286,6 +289,6 @@ impl Graph for ChangingGraph<'_> {
     }
 
     fn usual_step(&self) -> Option<f64> {
-        Some(self.graph.scene.grid.step())
+        Some(self.graph.scene.grid().step())
     }
 }

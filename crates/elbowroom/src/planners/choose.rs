@@ -34,8 +34,8 @@ pub(crate) fn shortlist(
 }
 
 /// The path without the grid's zigzag, which no motion through it keeps.
-fn corners(scene: &Scene, path: &JointPath) -> Vec<Configuration<2>> {
-    simplify(&scene.arm, &path.0, scene.grid.step()).into_iter().map(|i| path.0[i]).collect()
+fn corners(scene: &Scene, path: &JointPath) -> Vec<Configuration> {
+    simplify(scene.arm(), &path.0, scene.grid().step()).into_iter().map(|i| path.0[i].clone()).collect()
 }
 
 /// Least clearance at the places of `path` (m).

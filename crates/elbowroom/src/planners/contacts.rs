@@ -2,7 +2,6 @@
 
 use smallvec::SmallVec;
 
-use crate::arm::{Arm, PlanarArm};
 use crate::geometry::{Point, Segment};
 use crate::scene::{Obstacle, Scene, Shape};
 
@@ -16,7 +15,7 @@ pub(super) struct Look {
 
 /// All that the arm of a scene must not touch, prepared for looking at it many times.
 pub(super) struct Contacts<'a> {
-    scene: &'a Scene<PlanarArm>,
+    scene: &'a Scene,
     /// Clearance that counts as none (m).
     margin: f64,
     /// Around each obstacle a disc: centre and radius (m).
@@ -24,8 +23,8 @@ pub(super) struct Contacts<'a> {
 }
 
 impl<'a> Contacts<'a> {
-    pub(super) fn new(scene: &'a Scene<PlanarArm>, margin: f64) -> Self {
-        Self { scene, margin, discs: scene.obstacles.iter().map(disc_around).collect() }
+    pub(super) fn new(scene: &'a Scene, margin: f64) -> Self {
+        Self { scene, margin, discs: scene.obstacles().iter().map(disc_around).collect() }
     }
 
     /// By how much links at `q` (rad) come nearer than the margin to what they must keep clear of, summed up over all that
@@ -36,11 +35,11 @@ impl<'a> Contacts<'a> {
 
     /// The violation at `q` (rad), and how far it is from there to the next.
     pub(super) fn look(&self, q: &[f64]) -> Look {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let links: SmallVec<[Segment; 8]> = arm.link_segments(q).collect();
         let needed = self.margin + arm.half_width();
         let mut look = Look { violation: 0.0, gap: f64::INFINITY };
-        for (obstacle, (center, radius)) in self.scene.obstacles.iter().zip(&self.discs) {
+        for (obstacle, (center, radius)) in self.scene.obstacles().iter().zip(&self.discs) {
             for link in &links {
                 let mut gap = link.distance_to_point(*center) - radius - needed;
                 if gap < 0.0 {

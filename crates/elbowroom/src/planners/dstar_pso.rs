@@ -1,11 +1,11 @@
 //! `dstar-pso` for arms of more than two links: D* over the tip's workspace guides, a swarm finds the configurations.
 
 use super::chain::{Guide, Halt, Leader, Ledger, Trees, price, shortened};
-use super::ends::Ends;
+use super::endpoints::Endpoints;
 use super::finish::along;
 use super::settings::PlanSettings;
 use super::{Monitor, Plan, PlanError, Stage};
-use crate::arm::{Arm, PlanarArm};
+use crate::arm::Configuration;
 use crate::path::JointPath;
 use crate::scene::{Place, Scene, Task};
 use crate::swarm::GuidedSwarmSettings;
@@ -22,21 +22,21 @@ const ENOUGH: usize = 8;
 /// # Errors
 /// [`PlanError`]
 pub(crate) fn plan(
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     task: &Task,
     swarm: &GuidedSwarmSettings,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let ends = Ends::new(scene, task, settings.seed, monitor)?;
+    let ends = Endpoints::new(scene, task, settings.seed, monitor)?;
     let budget = swarm.candidates.saturating_mul(EVALUATIONS_PER_CANDIDATE);
     let mut leader = Leader::new(scene, Ledger::new(budget, monitor), settings.seed);
-    if let Some(q) = ends.starts.iter().find(|start| ends.goals.contains(start)) {
+    if let Some(q) = ends.already_there() {
         let effort = leader.ledger.effort();
         return along(scene, JointPath(vec![q.clone()]), settings, effort, monitor);
     }
     monitor.stage(Stage::FreeSpace);
-    let tips = |ends: &[Vec<f64>]| ends.iter().map(|q| scene.arm.tip_at(q)).collect::<Vec<_>>();
+    let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
     let to_goals = Guide::new(scene, &tips(&ends.goals), monitor)?;
     let to_starts = to_goals.towards(&tips(&ends.starts))?;
     let asked = [&task.goal, &task.start].map(|place| match place {
@@ -46,12 +46,12 @@ pub(crate) fn plan(
 
     monitor.stage(Stage::TipPath);
     let trees = Trees::new(&ends, asked, to_goals, to_starts);
-    let mut paths: Vec<(f64, JointPath<Vec<f64>>)> = Vec::new();
+    let mut paths: Vec<(f64, JointPath)> = Vec::new();
     while paths.len() < ENOUGH.min(swarm.candidates) {
         let drawn = trees.path(&mut leader).and_then(|path| shortened(&mut leader, path, settings.objective));
         match drawn {
             Ok(path) => {
-                let price = price(&scene.arm, settings.objective, &path, scene.grid.step());
+                let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
                 leader.ledger.found(price);
                 paths.push((price, path));
             }

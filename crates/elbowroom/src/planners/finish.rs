@@ -5,7 +5,7 @@ use super::plan::Effort;
 use super::settings::{Objective, PlanSettings};
 use super::smooth::{SmoothError, Style, smooth};
 use super::{Monitor, Plan, PlanError, Stage};
-use crate::arm::{Arm, PlanarArm};
+use crate::arm::Arm;
 use crate::path::JointPath;
 use crate::scene::Scene;
 use crate::trajectory::Motion;
@@ -19,24 +19,24 @@ const TOLERANCE: f64 = 0.1;
 /// # Errors
 /// [`PlanError::Refused`], [`PlanError::TooFast`], [`PlanError::Stopped`]
 pub(crate) fn along(
-    scene: &Scene<PlanarArm>,
-    path: JointPath<Vec<f64>>,
+    scene: &Scene,
+    path: JointPath,
     settings: &PlanSettings,
     effort: Effort,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     monitor.stage(Stage::Trajectory);
-    let (limits, assumed_limits) = motion_limits(&scene.arm);
-    let stated = stated_limits(&scene.arm);
+    let (limits, assumed_limits) = motion_limits(scene.arm());
+    let stated = stated_limits(scene.arm());
     let style = Style::Flowing { tolerance: TOLERANCE };
     let smoothed = smooth(scene, &path.0, &limits, &stated, settings.pace, style, monitor)
         .map_err(|error| SmoothError::in_terms_of(error, settings.pace))?;
     Ok(Plan {
-        cost: cost(&scene.arm, settings.objective, smoothed.trajectory.motion()),
+        cost: cost(scene.arm(), settings.objective, smoothed.trajectory.motion()),
         lower_bound: None,
-        path_cost: path.tip_travel(&scene.arm),
+        path_cost: path.tip_travel(scene.arm()),
         paths_to_choose_from: 1,
-        tip_path: path.tips(&scene.arm),
+        tip_path: path.tips(scene.arm()),
         joint_path: path,
         vias: smoothed.vias,
         stops: smoothed.stops,
@@ -51,25 +51,25 @@ pub(crate) fn along(
 /// # Errors
 /// [`PlanError::Refused`] when the verifier does not accept it, [`PlanError::Stopped`]
 pub(crate) fn with_motion(
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     motion: Motion,
-    path: JointPath<Vec<f64>>,
+    path: JointPath,
     vias: Vec<usize>,
     settings: &PlanSettings,
     effort: Effort,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     monitor.stage(Stage::Trajectory);
-    let (_, assumed_limits) = motion_limits(&scene.arm);
+    let (_, assumed_limits) = motion_limits(scene.arm());
     let keep_going = || monitor.keep_going();
     let trajectory = Trajectory::certify_until(scene, motion, &VerifySettings::default(), &keep_going)
         .map_err(|verdict| if keep_going() { PlanError::Refused(verdict) } else { PlanError::Stopped })?;
     Ok(Plan {
-        cost: cost(&scene.arm, settings.objective, trajectory.motion()),
+        cost: cost(scene.arm(), settings.objective, trajectory.motion()),
         lower_bound: None,
-        path_cost: trajectory.motion().tip_length(&scene.arm),
+        path_cost: trajectory.motion().tip_length(scene.arm()),
         paths_to_choose_from: 1,
-        tip_path: path.tips(&scene.arm),
+        tip_path: path.tips(scene.arm()),
         vias,
         joint_path: path,
         stops: 0,
@@ -80,7 +80,7 @@ pub(crate) fn with_motion(
 }
 
 /// What `motion` costs in terms of `objective`.
-pub(crate) fn cost(arm: &impl Arm, objective: Objective, motion: &Motion) -> f64 {
+pub(crate) fn cost(arm: &Arm, objective: Objective, motion: &Motion) -> f64 {
     match objective {
         Objective::Tip => motion.tip_length(arm),
         Objective::Joint => motion.joint_length(),

@@ -5,14 +5,14 @@
 
 use super::bound::coarse_least_cost;
 use super::chain::{Guide, Halt, Leader, Ledger, price, shortened};
-use super::ends::{Ends, nearest_turn, posture};
+use super::endpoints::{Endpoints, posture};
 use super::finish::along;
 use super::settings::PlanSettings;
 use super::{Monitor, Plan, PlanError, Stage};
-use crate::arm::{Arm, PlanarArm, Posture, joint_distance};
+use crate::arm::{Configuration, Posture, joint_distance, lerp};
 use crate::geometry::Point;
 use crate::path::JointPath;
-use crate::scene::{Place, Scene, Task, TaskPosture};
+use crate::scene::{Place, Scene, Task};
 
 /// How far the tip is led in one step, as a share of the reach.
 const STRIDE: f64 = 0.04;
@@ -66,27 +66,27 @@ impl Default for IkPsoSettings {
 /// # Errors
 /// [`PlanError`]
 pub(crate) fn plan(
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     task: &Task,
     ik: &IkPsoSettings,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let ends = Ends::new(scene, task, settings.seed, monitor)?;
-    let lower_bound = coarse_least_cost(scene, task, settings, monitor)?;
+    let ends = Endpoints::new(scene, task, settings.seed, monitor)?;
+    let lower_bound = coarse_least_cost(scene, &ends, settings, monitor)?;
     let mut leader = Leader::new(scene, Ledger::new(ik.evaluations, monitor), settings.seed);
-    if let Some(q) = ends.starts.iter().find(|start| ends.goals.contains(start)) {
+    if let Some(q) = ends.already_there() {
         let path = JointPath(vec![q.clone()]);
         let plan = along(scene, path, settings, leader.ledger.effort(), monitor)?;
         return Ok(Plan { lower_bound, ..plan });
     }
     monitor.stage(Stage::FreeSpace);
-    let tips = |ends: &[Vec<f64>]| ends.iter().map(|q| scene.arm.tip_at(q)).collect::<Vec<Point>>();
+    let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<Point>>();
     let to_goals = Guide::new(scene, &tips(&ends.goals), monitor)?;
     let to_starts = to_goals.towards(&tips(&ends.starts))?;
 
     monitor.stage(Stage::JointPath);
-    let any_posture = scene.arm.lengths().len() > 2;
+    let any_posture = scene.arm().links() > 2;
     let target = |place: &Place, ends| match place {
         Place::Tip(tip) if any_posture => Target::Tip(*tip),
         _ => Target::Configurations(ends),
@@ -97,15 +97,15 @@ pub(crate) fn plan(
         (&ends.goals, target(&task.start, &ends.starts), &to_starts),
     ];
     // What is learnt from one root stays with it, as far as memory goes.
-    let most = (MOST_CELLS / scene.grid.len()).max(2);
+    let most = (MOST_CELLS / scene.grid().len()).max(2);
     let mut guides = ways.map(|(roots, _, guide)| vec![guide.clone(); roots.len().min(most)]);
-    let mut paths: Vec<(f64, JointPath<Vec<f64>>)> = Vec::new();
+    let mut paths: Vec<(f64, JointPath)> = Vec::new();
     for run in 0_usize.. {
         let (roots, target, _) = ways[run % 2];
         let round = run / 2;
         let root = &roots[round % roots.len()];
-        leader.kept = (task.posture == TaskPosture::Keep)
-            .then(|| posture(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
+        leader.kept =
+            (ends.keep_posture).then(|| posture(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
         let kept = guides[run % 2].len();
         let guide = &mut guides[run % 2][round % roots.len() % kept];
         let follower = Follower { guide, target, most: ik.evaluations / SHARE };
@@ -123,7 +123,7 @@ pub(crate) fn plan(
         };
         match found {
             Ok(path) => {
-                let price = price(&scene.arm, settings.objective, &path, scene.grid.step());
+                let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
                 leader.ledger.found(price);
                 paths.push((price, path));
             }
@@ -138,9 +138,7 @@ pub(crate) fn plan(
     for (_, path) in paths.into_iter().take(MOST_MOTIONS) {
         match along(scene, path, settings, effort.clone(), monitor) {
             // A smooth motion may cut through full stretch where its path only comes near.
-            Ok(plan)
-                if task.posture == TaskPosture::Keep
-                    && !plan.trajectory.verdict().posture_changes.is_empty() => {}
+            Ok(plan) if ends.keep_posture && !plan.trajectory.verdict().posture_changes.is_empty() => {}
             Ok(plan) => return Ok(Plan { lower_bound, paths_to_choose_from: choice, ..plan }),
             Err(PlanError::Stopped) => return Err(PlanError::Stopped),
             Err(error) => refused = error,
@@ -155,7 +153,7 @@ enum Target<'a> {
     /// Any configuration with its tip here.
     Tip(Point),
     /// Any of these.
-    Configurations(&'a [Vec<f64>]),
+    Configurations(&'a [Configuration]),
 }
 
 /// One run from one start.
@@ -172,11 +170,11 @@ impl Follower<'_> {
         self,
         leader: &mut Leader<'_, M>,
         start: &[f64],
-    ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
-        let reach = leader.scene.arm.reach()[1];
+    ) -> Result<Option<Vec<Configuration>>, Halt> {
+        let reach = leader.scene.arm().reach()[1];
         let begun = leader.ledger.made();
-        let steps = ((STRIDE * reach / leader.scene.grid.step()).round() as usize).clamp(1, 64);
-        let mut path = vec![start.to_vec()];
+        let steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
+        let mut path = vec![Configuration::from(start)];
         let mut troubles = 0;
         while troubles < MOST_TROUBLES && leader.ledger.made() - begun < self.most {
             // Every round counts, so that the budget ends them.
@@ -186,7 +184,7 @@ impl Follower<'_> {
             self.guide.repair(cell, leader.ledger.monitor)?;
             let left = self.guide.cost_to_go(cell);
             if left.is_infinite() {
-                return Err(PlanError::NotFound { step: leader.scene.grid.step() }.into());
+                return Err(PlanError::NotFound { step: leader.scene.grid().step() }.into());
             }
             let goal = self.nearest_end(leader, &from);
             if self.is_near(leader, &from, reach)
@@ -217,16 +215,13 @@ impl Follower<'_> {
         leader: &mut Leader<'_, M>,
         from: &[f64],
         tip: Point,
-        goal: &Option<Vec<f64>>,
+        goal: &Option<Configuration>,
         share: f64,
         halvings: usize,
-    ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+    ) -> Result<Option<Vec<Configuration>>, Halt> {
         // Drawn to where it has to be in the end, as far as the tip is led there.
-        let towards = goal.as_ref().map(|goal| nearest_turn(&leader.scene.arm, from, goal));
-        let around = towards.map_or_else(
-            || from.to_vec(),
-            |goal| from.iter().zip(&goal).map(|(a, b)| a + (b - a) * share).collect(),
-        );
+        let towards = goal.as_ref().map(|goal| leader.scene.arm().nearest_turn(from, goal));
+        let around: Configuration = towards.map_or_else(|| from.into(), |goal| lerp(from, &goal, share));
         if let Some(q) = leader.by_swarm(from, &around, tip, RADIUS, SWARM)? {
             return Ok(Some(vec![q]));
         }
@@ -245,7 +240,7 @@ impl Follower<'_> {
     }
 
     /// The nearest configuration of the goal, for arms that have to be drawn to it.
-    fn nearest_end<M: Monitor>(&self, leader: &Leader<'_, M>, from: &[f64]) -> Option<Vec<f64>> {
+    fn nearest_end<M: Monitor>(&self, leader: &Leader<'_, M>, from: &[f64]) -> Option<Configuration> {
         match self.target {
             Target::Configurations(goals) if from.len() > 2 => {
                 self.by_distance(leader, from, goals).into_iter().next()
@@ -258,10 +253,10 @@ impl Follower<'_> {
         &self,
         leader: &Leader<'_, M>,
         from: &[f64],
-        goals: &[Vec<f64>],
-    ) -> Vec<Vec<f64>> {
-        let mut goals: Vec<Vec<f64>> =
-            goals.iter().map(|goal| nearest_turn(&leader.scene.arm, from, goal)).collect();
+        goals: &[Configuration],
+    ) -> Vec<Configuration> {
+        let mut goals: Vec<Configuration> =
+            goals.iter().map(|goal| leader.scene.arm().nearest_turn(from, goal)).collect();
         goals.sort_by(|a, b| joint_distance(from, a).total_cmp(&joint_distance(from, b)));
         goals
     }
@@ -280,7 +275,7 @@ impl Follower<'_> {
         &self,
         leader: &mut Leader<'_, M>,
         from: &[f64],
-    ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+    ) -> Result<Option<Vec<Configuration>>, Halt> {
         match self.target {
             Target::Tip(tip) => Ok(leader.by_least_squares(from, from, tip)?.map(|q| vec![q])),
             Target::Configurations(goals) => {

@@ -1,40 +1,55 @@
 //! The one way into all planners.
 
-use super::settings::{Pace, PlanSettings, Planner};
+use super::planner::Planner;
+use super::posture_true::Paths;
+use super::settings::{Pace, PlanSettings};
 use super::{Monitor, Plan, PlanError, dstar_pso, ik_pso, posture_true, swarms};
-use crate::arm::Arm;
-use crate::scene::{Scene, Task};
+use crate::scene::{Scene, Task, TwoLinkError};
 
 /// Plans `task`: whatever the planner, what comes out is a motion that the verifier has proved to be safe.
 ///
 /// # Errors
 /// [`PlanError`]; a missing path is [`PlanError::NoPath`] where that is proved.
-pub fn plan<A: Arm>(
-    scene: &Scene<A>,
+pub fn plan(
+    scene: &Scene,
     task: &Task,
+    planner: &Planner,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    check(settings)?;
-    match &settings.planner {
-        Planner::DstarPso(swarm) if scene.arm.lengths().len() > 2 => {
-            dstar_pso::plan(&scene.planar(), task, swarm, settings, monitor)
+    if let Some(obstacle) = scene.first_moving() {
+        return Err(PlanError::Moving { obstacle, name: scene.obstacles()[obstacle].name.clone() });
+    }
+    check(planner, settings)?;
+    let over = |paths: Paths<'_>| {
+        let scene = scene.two_link().map_err(|error| match error {
+            TwoLinkError::Links { found } => PlanError::OtherArm { planner: planner.name(), links: found },
+            TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
+        })?;
+        posture_true::plan(scene, task, paths, settings, monitor)
+    };
+    match planner {
+        Planner::DstarPso(own) if scene.arm().links() > 2 => {
+            dstar_pso::plan(scene, task, own, settings, monitor)
         }
-        Planner::IkPso(ik) => ik_pso::plan(&scene.planar(), task, ik, settings, monitor),
-        Planner::Dstar | Planner::DstarPso(_) | Planner::Optimal => {
-            let planner = settings.planner.name();
-            let links = scene.arm.lengths().len();
-            let scene = scene.two_link().ok_or(PlanError::OtherArm { planner, links })?;
-            posture_true::plan(&scene, task, settings, monitor)
-        }
-        Planner::Pso(_) | Planner::Cbpso(_) | Planner::NscPso(_) => {
-            swarms::plan(&scene.planar(), task, settings, monitor)
-        }
+        Planner::DstarPso(own) => over(Paths::OfGrid(Some(own))),
+        Planner::Dstar => over(Paths::OfGrid(None)),
+        Planner::Optimal => over(Paths::OffGrid),
+        Planner::IkPso(own) => ik_pso::plan(scene, task, own, settings, monitor),
+        Planner::Pso(own) => swarms::plan(scene, task, settings, monitor, |ends| {
+            swarms::pso(scene, ends, own, settings, monitor)
+        }),
+        Planner::Cbpso(own) => swarms::plan(scene, task, settings, monitor, |ends| {
+            swarms::cbpso(scene, ends, own, settings, monitor)
+        }),
+        Planner::NscPso(own) => swarms::plan(scene, task, settings, monitor, |ends| {
+            swarms::nsc_pso(scene, ends, own, settings, monitor)
+        }),
     }
 }
 
-fn check(settings: &PlanSettings) -> Result<(), PlanError> {
-    if let Planner::DstarPso(swarm) = &settings.planner {
+fn check(planner: &Planner, settings: &PlanSettings) -> Result<(), PlanError> {
+    if let Planner::DstarPso(swarm) = planner {
         swarm.check()?;
     }
     if let Some(gap) = settings.gap.filter(|gap| gap.is_nan() || *gap < 0.0) {

@@ -18,7 +18,7 @@ pub struct AssumedLimit {
 }
 
 /// The motion limits of the joints, with [`ASSUMED_LIMITS`] where none is stated, and a list of those.
-pub(crate) fn motion_limits(arm: &impl Arm) -> (Vec<SpeedLimits>, Vec<AssumedLimit>) {
+pub(crate) fn motion_limits(arm: &Arm) -> (Vec<SpeedLimits>, Vec<AssumedLimit>) {
     let mut assumed = Vec::new();
     let limit = |(j, joint): (usize, &Joint)| {
         let stated = joint.motion;
@@ -39,7 +39,7 @@ pub(crate) fn motion_limits(arm: &impl Arm) -> (Vec<SpeedLimits>, Vec<AssumedLim
 }
 
 /// The limits that the scene states; a rate without one may be as great as it likes.
-pub(crate) fn stated_limits(arm: &impl Arm) -> Vec<SpeedLimits> {
+pub(crate) fn stated_limits(arm: &Arm) -> Vec<SpeedLimits> {
     let limit = |joint: &Joint| SpeedLimits {
         velocity: joint.motion.velocity.unwrap_or(f64::INFINITY),
         acceleration: joint.motion.acceleration.unwrap_or(f64::INFINITY),

@@ -1,11 +1,9 @@
 //! The obstacles nearest to the arm, for many configurations.
 
-use std::cell::OnceCell;
-
-use crate::arm::Configuration;
+use crate::arm::TwoLink;
 use crate::geometry::{Circle, Segment};
 use crate::path::CERTIFIED_CLEARANCE;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Shape, TwoLinkScene};
 
 /// Clearances of each link beyond what is to be kept (m), rounded down: from the obstacle nearest to it, and from all
 /// others.
@@ -40,37 +38,43 @@ impl Nearest {
     }
 }
 
+/// [`motion_bounds`](crate::path::motion_bounds) of two links: without a list, for it is asked of every edge.
+pub(super) fn motion_bounds(arm: &TwoLink, from: &[f64; 2], to: &[f64; 2]) -> [f64; 2] {
+    let [l1, l2] = arm.lengths();
+    let (turn1, turn2) = (to[0] - from[0], to[1] - from[1]);
+    let first = l1 * turn1.abs();
+    [first, first + l2 * (turn1 + turn2).abs()]
+}
+
 fn sum(here: f32, there: f32) -> f64 {
     f64::from(here) + f64::from(there)
 }
 
 /// The obstacles of a scene, made ready for many looks.
 pub(super) struct Obstacles<'a> {
-    scene: &'a Scene,
+    scene: TwoLinkScene<'a>,
     discs: Vec<(u16, Circle)>,
     polygons: Vec<u16>,
-    /// For each obstacle the scene with nothing else in it.
-    alone: OnceCell<Vec<Scene>>,
 }
 
 impl<'a> Obstacles<'a> {
-    pub(super) fn of(scene: &'a Scene) -> Self {
+    pub(super) fn of(scene: TwoLinkScene<'a>) -> Self {
         let (mut discs, mut polygons) = (Vec::new(), Vec::new());
-        for (index, obstacle) in (0..=u16::MAX).zip(&scene.obstacles) {
+        for (index, obstacle) in (0..=u16::MAX).zip(scene.obstacles()) {
             match obstacle.shape {
                 Shape::Circle(circle) => discs.push((index, circle)),
                 Shape::Polygon(_) => polygons.push(index),
             }
         }
-        Self { scene, discs, polygons, alone: OnceCell::new() }
+        Self { scene, discs, polygons }
     }
 
     /// What is nearest to the arm at `q`.
-    pub(super) fn nearest_to(&self, q: &Configuration<2>) -> Nearest {
-        let kept = self.scene.arm.half_width() + CERTIFIED_CLEARANCE;
+    pub(super) fn nearest_to(&self, q: &[f64; 2]) -> Nearest {
+        let kept = self.scene.arm().half_width() + CERTIFIED_CLEARANCE;
         let mut nearest =
             Nearest { obstacle: [0; 2], clearance: [f32::INFINITY; 2], others: [f32::INFINITY; 2] };
-        for (link, segment) in self.scene.arm.links(q).into_iter().enumerate() {
+        for (link, segment) in self.scene.arm().link_segments(q).into_iter().enumerate() {
             let (mut first, mut second, mut obstacle) = (f64::INFINITY, f64::INFINITY, 0);
             let mut look = |index: u16, distance: f64| {
                 if distance < first {
@@ -82,28 +86,13 @@ impl<'a> Obstacles<'a> {
             let to_disc = distance_to_discs(segment);
             self.discs.iter().for_each(|(index, circle)| look(*index, to_disc(circle)));
             for &index in &self.polygons {
-                look(index, self.scene.obstacles[usize::from(index)].distance_to_segment(segment));
+                look(index, self.scene.obstacles()[usize::from(index)].distance_to_segment(segment));
             }
             nearest.obstacle[link] = obstacle;
             nearest.clearance[link] = ((first - kept) as f32).next_down();
             nearest.others[link] = ((second - kept) as f32).next_down();
         }
         nearest
-    }
-
-    /// The scene with one obstacle alone.
-    pub(super) fn alone(&self, index: usize) -> Option<&Scene> {
-        let scenes = self.alone.get_or_init(|| {
-            let bare = Scene {
-                arm: self.scene.arm,
-                grid: self.scene.grid,
-                obstacles: Vec::new(),
-                tasks: Vec::new(),
-            };
-            let with = |obstacle| Scene { obstacles: vec![obstacle], ..bare.clone() };
-            self.scene.obstacles.iter().cloned().map(with).collect()
-        });
-        scenes.get(index)
     }
 }
 

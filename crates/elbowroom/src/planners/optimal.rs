@@ -3,14 +3,15 @@
 
 use super::bound::measure_of;
 use super::chart::{JointChart, Walls, sheet_ranges};
-use super::problem::Problem;
+use super::endpoints::Endpoints;
+use super::pairs::joint_path;
 use super::pull::{Plane, Pull};
 use super::settings::Objective;
 use super::{Monitor, PlanError, Stage};
-use crate::arm::Configuration;
+use crate::arm::joint_distance;
 use crate::geometry::Point;
-use crate::path::{JointPath, sweep_is_free};
-use crate::scene::Scene;
+use crate::path::{JointPath, straight_move_is_free};
+use crate::scene::TwoLinkScene;
 use crate::surface::{Measure, SurfacePlace, TautPath, taut_path};
 use crate::trajectory::SpeedLimits;
 use crate::verify::images;
@@ -50,8 +51,8 @@ impl Search {
 /// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with
 /// each joint at its greatest speed.
 pub(crate) fn over_joints(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     objective: Objective,
     limits: &[SpeedLimits],
     search: Search,
@@ -67,7 +68,7 @@ pub(crate) fn over_joints(
     let margins: &[f64] = if objective == Objective::Time { &MARGINS_FOR_TIME } else { &MARGINS };
     for &margin in margins {
         monitor.stage(Stage::CostToGo);
-        let Some(path) = shortest(scene, problem, measure, margin, distance, monitor)? else { continue };
+        let Some(path) = shortest(scene, ends, measure, margin, distance, monitor)? else { continue };
         monitor.stage(Stage::JointPath);
         let pull = Pull { scene, plane: Plane::Joints(weights), margin };
         let thinned = pull.thinned(&path);
@@ -89,14 +90,14 @@ pub(crate) fn over_joints(
 
 /// `path`, a certified one, pulled taut in the plane of the tip.
 pub(crate) fn over_tips(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     path: &JointPath,
     monitor: &impl Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
     monitor.stage(Stage::JointPath);
     let mut found: Vec<JointPath> = Vec::new();
     for margin in MARGINS {
-        let pull = Pull { scene, plane: Plane::Tip(TIP_TURN * scene.grid.step()), margin };
+        let pull = Pull { scene, plane: Plane::Tip(TIP_TURN * scene.grid().step()), margin };
         let path = pull.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
         if !found.contains(&path) {
             found.push(path);
@@ -108,8 +109,8 @@ pub(crate) fn over_tips(
 /// The shortest way over cells that are free with `margin` (m) to spare, certified; `None` if they do not connect
 /// starts and goals, or a turn is not free after all.
 fn shortest(
-    scene: &Scene,
-    problem: &Problem,
+    scene: TwoLinkScene<'_>,
+    ends: &Endpoints,
     measure: Measure,
     margin: f64,
     distance: f64,
@@ -118,12 +119,13 @@ fn shortest(
     let keep_going = || monitor.keep_going();
     let walls = Walls { inside: false, distance };
     let mut best: Option<(f64, JointPath)> = None;
-    for range in sheet_ranges(scene, &problem.starts, problem.may_flip) {
+    let [starts, goals] = ends.pairs();
+    for range in sheet_ranges(scene, &starts, ends.keep_posture) {
         let chart = JointChart::new(scene, margin, range, walls, &keep_going).ok_or(PlanError::Stopped)?;
-        let places = |ends: &[Configuration<2>]| -> Vec<(Configuration<2>, SurfacePlace)> {
-            ends.iter().filter_map(|q| Some((*q, chart.place(q)?))).collect()
+        let places = |pairs: &[[f64; 2]]| -> Vec<([f64; 2], SurfacePlace)> {
+            pairs.iter().filter_map(|q| Some((*q, chart.place(q)?))).collect()
         };
-        let (starts, goals) = (places(&problem.starts), places(&problem.goals));
+        let (starts, goals) = (places(&starts), places(&goals));
         let [from, to] =
             [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
         let at_goals: Vec<Point> = to.iter().map(|place| place.point).collect();
@@ -139,33 +141,33 @@ fn shortest(
         }
     }
     Ok(best.map(|(_, path)| path).filter(|path| {
-        path.0.windows(2).all(|pair| keep_going() && sweep_is_free(scene, &pair[0], &pair[1]))
+        path.0.windows(2).all(|pair| keep_going() && straight_move_is_free(scene.scene(), &pair[0], &pair[1]))
     }))
 }
 
 /// `path` in configurations, from the start it begins at; turns of continuous joints are counted.
-fn along(path: &TautPath, starts: &[(Configuration<2>, SurfacePlace)]) -> Option<JointPath> {
+fn along(path: &TautPath, starts: &[([f64; 2], SurfacePlace)]) -> Option<JointPath> {
     let first = path.places.first()?;
     let (start, place) = starts.iter().find(|(_, place)| place == first)?;
-    let turned = [start.0[0] - place.point.x, start.0[1] - place.point.y];
-    let mut places: Vec<Configuration<2>> = vec![*start];
+    let turned = [start[0] - place.point.x, start[1] - place.point.y];
+    let mut places: Vec<[f64; 2]> = vec![*start];
     for (place, shift) in path.places.iter().zip(&path.shifts).skip(1) {
-        let to = Configuration([place.point.x - shift.x + turned[0], place.point.y - shift.y + turned[1]]);
+        let to = [place.point.x - shift.x + turned[0], place.point.y - shift.y + turned[1]];
         if let [.., before, last] = places.as_slice()
             && is_straight(before, last, &to)
         {
             places.pop();
         }
-        if places.last().is_none_or(|last| last.distance(&to) > STRAIGHT) {
+        if places.last().is_none_or(|last| joint_distance(last, &to) > STRAIGHT) {
             places.push(to);
         }
     }
-    (places.len() > 1).then_some(JointPath(places))
+    (places.len() > 1).then(|| joint_path(&places))
 }
 
 /// Whether `middle` lies on the straight turn from `from` to `to`, nearly.
-fn is_straight(from: &Configuration<2>, middle: &Configuration<2>, to: &Configuration<2>) -> bool {
-    let [a, b] = [0, 1].map(|j| middle.0[j] - from.0[j]);
-    let [c, d] = [0, 1].map(|j| to.0[j] - from.0[j]);
+fn is_straight(from: &[f64; 2], middle: &[f64; 2], to: &[f64; 2]) -> bool {
+    let [a, b] = [0, 1].map(|j| middle[j] - from[j]);
+    let [c, d] = [0, 1].map(|j| to[j] - from[j]);
     (a * d - b * c).abs() <= STRAIGHT * c.hypot(d) && a * c + b * d >= 0.0
 }

@@ -9,7 +9,7 @@ use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
-use crate::scene::{Place, Scene, Task};
+use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
 use crate::search::{Dstar, GoalError, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmError, GuidedSwarmSettings, Terrain, draw_paths};
 use crate::trajectory::{Motion, MotionError, durations_by_length, quintic_through, random_vias, vias_at};
@@ -71,6 +71,20 @@ pub struct PaperPlan {
 /// Why the paper's system has no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PaperError {
+    /// An obstacle of the scene moves.
+    #[error("{}", super::plan::standing_still(*obstacle, name.as_deref()))]
+    Moving {
+        /// Its number, from 0.
+        obstacle: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+    },
+    /// The arm has more links than two.
+    #[error("the paper's system is for arms of 2 links; this one has {links}")]
+    OtherArm {
+        /// How many links it has.
+        links: usize,
+    },
     /// A setting of the swarm makes no sense.
     #[error(transparent)]
     Swarm(#[from] GuidedSwarmError),
@@ -119,6 +133,10 @@ pub fn plan_as_in_paper(
     settings: &PaperSettings,
     monitor: &impl Monitor,
 ) -> Result<PaperPlan, PaperError> {
+    let scene = scene.two_link().map_err(|error| match error {
+        TwoLinkError::Moving { obstacle, name } => PaperError::Moving { obstacle, name },
+        TwoLinkError::Links { found } => PaperError::OtherArm { links: found },
+    })?;
     check(settings)?;
     let start = tip(scene, &task.start).map_err(PaperError::Start)?;
     let goal = tip(scene, &task.goal).map_err(PaperError::Goal)?;
@@ -127,7 +145,7 @@ pub fn plan_as_in_paper(
     let space = FreeSpace::of_until(scene, &|| monitor.keep_going()).ok_or(PaperError::Stopped)?;
 
     monitor.stage(Stage::CostToGo);
-    let mut graph = UnionGraph::new(&space, &scene.grid);
+    let mut graph = UnionGraph::new(&space, scene.grid());
     let goal_node = graph.node_at(goal);
     let start_node = if start == goal { goal_node } else { graph.node_at(start) };
     let mut field = Dstar::new(graph.len());
@@ -139,13 +157,13 @@ pub fn plan_as_in_paper(
     }
     let cost_to_go = field.cost_to_go(start_node);
     if cost_to_go.is_infinite() {
-        return Err(PaperError::NotFound { step: scene.grid.step() });
+        return Err(PaperError::NotFound { step: scene.grid().step() });
     }
 
     monitor.stage(Stage::TipPath);
     let (cost, nodes, dead_points) = match &settings.method {
         Method::Dstar => {
-            let path = field.path(start_node).ok_or(PaperError::NotFound { step: scene.grid.step() })?;
+            let path = field.path(start_node).ok_or(PaperError::NotFound { step: scene.grid().step() })?;
             (cost_to_go, vec![path], 0)
         }
         Method::DstarPso(swarm) => {
@@ -169,7 +187,7 @@ pub fn plan_as_in_paper(
 
     monitor.stage(Stage::Trajectory);
     let vias = random_vias(tip_path.0.len(), settings.vias, settings.seed);
-    let through: Vec<Configuration<2>> = vias.iter().map(|&i| followed.joints.0[i]).collect();
+    let through: Vec<Configuration> = vias.iter().map(|&i| followed.joints.0[i].clone()).collect();
     let through = vias_at(&through);
     let durations = durations_by_length(&through, settings.duration);
     let motion = Motion::new(quintic_through(&through, &durations))?;
@@ -197,10 +215,10 @@ fn check(settings: &PaperSettings) -> Result<(), PaperError> {
 }
 
 /// The tip of a place that some configuration can take.
-fn tip(scene: &Scene, place: &Place) -> Result<Point, NotFree> {
+fn tip(scene: TwoLinkScene<'_>, place: &Place) -> Result<Point, NotFree> {
     let found = configurations(scene, place)?;
     Ok(match place {
         Place::Tip(tip) => *tip,
-        Place::Configuration(_) => scene.arm.tip(&found[0]),
+        Place::Configuration(_) => scene.arm().tip(&found[0]),
     })
 }

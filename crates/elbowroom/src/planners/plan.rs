@@ -5,6 +5,7 @@ use crate::arm::Posture;
 use crate::free_space::NotFree;
 use crate::geometry::Point;
 use crate::path::{JointPath, TipPath};
+use crate::scene::in_words;
 use crate::search::GoalError;
 use crate::swarm::{BoundsError, CulturalError, GuidedSwarmError, SwarmError};
 use crate::trajectory::MotionError;
@@ -24,7 +25,7 @@ pub struct Plan {
     /// Where the tip is at each place of `joint_path`.
     pub tip_path: TipPath,
     /// Configurations from start to goal; the straight turns between them are certified free.
-    pub joint_path: JointPath<Vec<f64>>,
+    pub joint_path: JointPath,
     /// Places of the path that the motion is led through, by their index.
     pub vias: Vec<usize>,
     /// How many of them, ends left out, it stops at.
@@ -71,9 +72,25 @@ pub struct NoPath {
     pub goals: Vec<[f64; 2]>,
 }
 
+/// What planners say of a scene in which an obstacle moves.
+pub(super) fn standing_still(obstacle: usize, name: Option<&str>) -> String {
+    let which = in_words(obstacle, name);
+    format!(
+        "planners take obstacles to stand still; {which} moves: the command follow and Replanner serve those that move"
+    )
+}
+
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
+    /// An obstacle of the scene moves.
+    #[error("{}", standing_still(*obstacle, name.as_deref()))]
+    Moving {
+        /// Its number, from 0.
+        obstacle: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+    },
     /// A setting of the swarm makes no sense.
     #[error(transparent)]
     Swarm(#[from] GuidedSwarmError),

@@ -1,9 +1,11 @@
+use super::nearest::motion_bounds;
+use super::pairs::joint_path;
 use super::sheets::{Edge, Kept, Record, Sheets, direct, to_edge};
-use crate::arm::{Configuration, Posture};
+use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
-use crate::path::{JointPath, motion_bounds, sweep_is_free};
-use crate::scene::Scene;
+use crate::path::{JointPath, straight_move_clears, straight_move_is_free};
+use crate::scene::TwoLinkScene;
 use crate::search::Graph;
 
 /// How near to full stretch or fold a posture may be changed, in grid steps of tip travel: wide enough
@@ -27,7 +29,7 @@ const MOST_HALVINGS: u32 = 3;
 /// sheets: the straight turn passes through the line of links there, which is where a posture can change.
 /// Edges are certified when first asked for, and the answer is kept.
 pub(crate) struct PostureGraph<'a> {
-    pub(super) scene: &'a Scene,
+    pub(super) scene: TwoLinkScene<'a>,
     pub(super) sheets: Sheets<'a>,
     pub(super) may_flip: bool,
     places: Vec<PlaceNode>,
@@ -35,39 +37,39 @@ pub(crate) struct PostureGraph<'a> {
 
 /// A configuration that is not over a grid point: a start or a goal.
 struct PlaceNode {
-    q: Configuration<2>,
+    q: [f64; 2],
     tip: Point,
     joined: Vec<(usize, f64)>,
 }
 
 impl<'a> PostureGraph<'a> {
     /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
-    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool) -> Self {
+    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_flip: bool) -> Self {
         Self::with(scene, space, may_flip, Kept::default())
     }
 
     /// [`new`](Self::new), with what is known already.
-    pub(super) fn with(scene: &'a Scene, space: &'a FreeSpace, may_flip: bool, kept: Kept) -> Self {
-        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid.step(), kept);
+    pub(super) fn with(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_flip: bool, kept: Kept) -> Self {
+        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid().step(), kept);
         Self { scene, sheets, may_flip, places: Vec::new() }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
     /// around its tip and to the places already there, as far as the straight turns are certified.
-    pub(crate) fn insert(&mut self, q: Configuration<2>) -> usize {
+    pub(crate) fn insert(&mut self, q: [f64; 2]) -> usize {
         let node = self.len();
-        let tip = self.scene.arm.tip(&q);
+        let tip = self.scene.arm().tip(&q);
         let mut joined = Vec::new();
-        for cell in self.scene.grid.corners(tip) {
+        for cell in self.scene.grid().corners(tip) {
             for other in self.sheets.over(cell) {
                 if let Some(to) = self.sheets.configuration(other)
                     && self.is_certified(&q, &to)
                 {
-                    joined.push((other, self.cost(tip, self.scene.grid.point(cell), &q, &to)));
+                    joined.push((other, self.cost(tip, self.scene.grid().point(cell), &q, &to)));
                 }
             }
         }
-        let reach = 2.0 * self.scene.grid.step();
+        let reach = 2.0 * self.scene.grid().step();
         let cells = self.sheets.len();
         for i in 0..self.places.len() {
             let place = &self.places[i];
@@ -82,7 +84,7 @@ impl<'a> PostureGraph<'a> {
     }
 
     /// The configuration at `node`, which must be free.
-    pub(crate) fn configuration(&self, node: usize) -> Option<Configuration<2>> {
+    pub(crate) fn configuration(&self, node: usize) -> Option<[f64; 2]> {
         match node.checked_sub(self.sheets.len()) {
             None => self.sheets.configuration(node),
             Some(i) => Some(self.places[i].q),
@@ -92,7 +94,7 @@ impl<'a> PostureGraph<'a> {
     /// Where the tip is at `node`.
     pub(crate) fn tip(&self, node: usize) -> Point {
         match node.checked_sub(self.sheets.len()) {
-            None => self.scene.grid.point(self.sheets.sheet_and_cell(node).1),
+            None => self.scene.grid().point(self.sheets.sheet_and_cell(node).1),
             Some(i) => self.places[i].tip,
         }
     }
@@ -105,8 +107,8 @@ impl<'a> PostureGraph<'a> {
     }
 
     /// The same for configurations that have certified turns from each to the next.
-    pub(super) fn turns_through(&self, configurations: &[Configuration<2>]) -> Option<JointPath> {
-        let mut places: Vec<Configuration<2>> = Vec::with_capacity(configurations.len());
+    pub(super) fn turns_through(&self, configurations: &[[f64; 2]]) -> Option<JointPath> {
+        let mut places: Vec<[f64; 2]> = Vec::with_capacity(configurations.len());
         for &to in configurations {
             if let Some(from) = places.last().copied() {
                 let mut between = Vec::new();
@@ -117,65 +119,60 @@ impl<'a> PostureGraph<'a> {
                 // Turns are counted from place to place: what lies between was certified so.
                 let mut last = from;
                 for next in between.iter().chain([&to]) {
-                    last = direct(&self.scene.arm, &last, next)?;
+                    last = direct(self.scene.arm(), &last, next)?;
                     places.push(last);
                 }
             } else {
                 places.push(to);
             }
         }
-        Some(JointPath(places))
+        Some(joint_path(&places))
     }
 
-    pub(super) fn is_certified(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+    pub(super) fn is_certified(&self, from: &[f64; 2], to: &[f64; 2]) -> bool {
         self.may_turn(from, to) && self.connect(from, to, MOST_HALVINGS, &mut Vec::new())
     }
 
     /// Whether the posture is kept, or may be changed.
-    fn may_turn(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+    fn may_turn(&self, from: &[f64; 2], to: &[f64; 2]) -> bool {
         let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
         self.may_flip || !changes
     }
 
     /// Whether the arm can turn from `from` to `to`: straight or, where that would swing wide, by way of
     /// configurations `between` that put the tip on the straight line.
-    fn connect(
-        &self,
-        from: &Configuration<2>,
-        to: &Configuration<2>,
-        halvings: u32,
-        between: &mut Vec<Configuration<2>>,
-    ) -> bool {
-        let arm = &self.scene.arm;
+    fn connect(&self, from: &[f64; 2], to: &[f64; 2], halvings: u32, between: &mut Vec<[f64; 2]>) -> bool {
+        let arm = self.scene.arm();
         let Some(to) = direct(arm, from, to) else { return false };
-        sweep_is_free(self.scene, from, &to) || self.connect_bent(from, &to, halvings, between)
+        straight_move_is_free(self.scene.scene(), from, &to)
+            || self.connect_bent(from, &to, halvings, between)
     }
 
     /// [`connect`](Self::connect), where the straight turn to `to` is not free.
     fn connect_bent(
         &self,
-        from: &Configuration<2>,
-        to: &Configuration<2>,
+        from: &[f64; 2],
+        to: &[f64; 2],
         halvings: u32,
-        between: &mut Vec<Configuration<2>>,
+        between: &mut Vec<[f64; 2]>,
     ) -> bool {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let posture = match (Posture::of(from), Posture::of(to)) {
             (Some(a), Some(b)) if a != b => return false,
             (Some(posture), _) | (None, Some(posture)) => posture,
             (None, None) => return false,
         };
-        if halvings == 0 || from.distance(to) < WIDE_TURN {
+        if halvings == 0 || joint_distance(from, to) < WIDE_TURN {
             return false;
         }
         let (a, b) = (arm.tip(from), arm.tip(to));
         let middle = a + (b - a) * 0.5;
         let on_line = arm.inverse(middle, posture).unwrap_or_default();
-        let halfway = from.lerp(to, 0.5);
+        let halfway = lerp_pair(from, to, 0.5);
         let nearest = on_line
             .iter()
             .filter_map(|q| direct(arm, from, q))
-            .min_by(|p, q| p.distance(&halfway).total_cmp(&q.distance(&halfway)));
+            .min_by(|p, q| joint_distance(p, &halfway).total_cmp(&joint_distance(q, &halfway)));
         let Some(middle) = nearest else { return false };
         if !self.connect(from, &middle, halvings - 1, between) {
             return false;
@@ -186,15 +183,15 @@ impl<'a> PostureGraph<'a> {
 
     /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
     /// fold between them. More than 0, as the search asks.
-    pub(super) fn cost(&self, a: Point, b: Point, qa: &Configuration<2>, qb: &Configuration<2>) -> f64 {
+    pub(super) fn cost(&self, a: Point, b: Point, qa: &[f64; 2], qb: &[f64; 2]) -> f64 {
         let straight = a.distance(b);
         let travel = match (Posture::of(qa), Posture::of(qb)) {
             (Some(pa), Some(pb)) if pa != pb => {
-                straight.max(to_edge(&self.scene.arm, a) + to_edge(&self.scene.arm, b))
+                straight.max(to_edge(self.scene.arm(), a) + to_edge(self.scene.arm(), b))
             }
             _ => straight,
         };
-        travel.max(LEAST_COST * self.scene.grid.step())
+        travel.max(LEAST_COST * self.scene.grid().step())
     }
 
     /// Whether the edge from `node`, kept at `place`, to its neighbour `other` on the sheet is certified.
@@ -219,7 +216,7 @@ impl<'a> PostureGraph<'a> {
     /// Whether the arm can turn between two nodes: what [`is_certified`](Self::is_certified) says, with what is known of
     /// the clearances at both ends.
     fn is_edge(&self, from: &Record, to: &Record) -> bool {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
         let bounds = motion_bounds(arm, &from.q, &end);
         if from.nearest.are_enough_with(&to.nearest, bounds) {
@@ -231,8 +228,8 @@ impl<'a> PostureGraph<'a> {
         if !self.may_turn(&from.q, &to.q) {
             return false;
         }
-        let is_free = |scene: &Scene| sweep_is_free(scene, &from.q, &end);
-        suspects.all(|index| self.sheets.obstacles.alone(index).is_none_or(is_free))
+        let (arm, obstacles) = (self.scene.scene().arm(), self.scene.obstacles());
+        suspects.all(|index| straight_move_clears(arm, &obstacles[index], &from.q, &end))
             || self.connect_bent(&from.q, &end, MOST_HALVINGS, &mut Vec::new())
     }
 
@@ -310,7 +307,7 @@ impl Graph for PostureGraph<'_> {
         for (direction, neighbour) in self.sheets.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
             if self.sheet_edge(node, (place, &from), sheet + neighbour, direction) {
-                visit(sheet + neighbour, self.scene.grid.neighbour_distance(direction));
+                visit(sheet + neighbour, self.scene.grid().neighbour_distance(direction));
             }
             if crosses {
                 self.visit_across(node, (place, &from), (neighbour, Some(direction)), &mut visit);

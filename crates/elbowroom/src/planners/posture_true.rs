@@ -2,16 +2,17 @@
 
 use super::bound::{COARSE_DISTANCE, least_cost};
 use super::candidates::{Candidate, Found, GRID_TOLERANCE, SAME_COST, off_grid, over_grid};
+use super::endpoints::Endpoints;
 use super::finish::cost;
 use super::limits::{AssumedLimit, motion_limits, stated_limits};
 use super::optimal::{Search, over_joints};
-use super::problem::Problem;
-use super::settings::{Objective, PlanSettings, Planner};
+use super::settings::{Objective, PlanSettings};
 use super::smooth::{SmoothError, Smoothed, Style, smooth};
 use super::{Monitor, Plan, PlanError, Stage};
 
 use crate::path::JointPath;
-use crate::scene::{Scene, Task};
+use crate::scene::{Task, TwoLinkScene};
+use crate::swarm::GuidedSwarmSettings;
 use crate::trajectory::SpeedLimits;
 use crate::verify::Trajectory;
 
@@ -29,6 +30,15 @@ const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
 /// more to prove than to look past.
 const WALLS_DEEPER: f64 = 2.0;
 
+/// Which paths motions are made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Paths<'a> {
+    /// D*'s over the grid and, with these settings, those that the swarm draws there.
+    OfGrid(Option<&'a GuidedSwarmSettings>),
+    /// Taut ones.
+    OffGrid,
+}
+
 /// Plans `task`: a path over (place, posture) whose every step is certified free, and a motion along it that the
 /// verifier accepts.
 ///
@@ -36,29 +46,31 @@ const WALLS_DEEPER: f64 = 2.0;
 /// [`PlanError`]; a missing path is [`PlanError::NoPath`] where that is proved, else [`PlanError::NotFound`] or
 /// [`PlanError::NotFoundOverJoints`].
 pub(crate) fn plan(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     task: &Task,
+    paths: Paths<'_>,
     settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
-    let problem = Problem::new(scene, task)?;
-    let (limits, assumed_limits) = motion_limits(&scene.arm);
-    let work = Work { scene, problem, settings, limits, assumed_limits, monitor };
-    if let Some(q) = work.problem.already_there() {
-        let path = JointPath(vec![q]);
+    let ends = Endpoints::new(scene.scene(), task, settings.seed, monitor)?;
+    let (limits, assumed_limits) = motion_limits(scene.scene().arm());
+    let work = Work { scene, ends, paths, settings, limits, assumed_limits, monitor };
+    if let Some(q) = work.ends.already_there() {
+        let path = JointPath(vec![q.clone()]);
         let stay = vec![Candidate { path, tip_travel: 0.0, tolerance: GRID_TOLERANCE }];
         return work.motion_along(Found { candidates: stay, paths: 1, effort: None }, Some(0.0));
     }
-    match settings.planner {
-        Planner::Optimal => work.optimal(),
-        _ => work.over_grid(),
+    match paths {
+        Paths::OffGrid => work.optimal(),
+        Paths::OfGrid(swarm) => work.over_grid(swarm),
     }
 }
 
 /// A task in the making.
 struct Work<'a, M: Monitor> {
-    scene: &'a Scene,
-    problem: Problem,
+    scene: TwoLinkScene<'a>,
+    ends: Endpoints,
+    paths: Paths<'a>,
     settings: &'a PlanSettings,
     limits: Vec<SpeedLimits>,
     assumed_limits: Vec<AssumedLimit>,
@@ -71,12 +83,12 @@ impl<M: Monitor> Work<'_, M> {
     /// # Errors
     /// [`PlanError::NoPath`], [`PlanError::Stopped`]
     fn bound(&self, distance: f64) -> Result<Option<f64>, PlanError> {
-        least_cost(self.scene, &self.problem, self.settings, distance, self.monitor)
+        least_cost(self.scene, &self.ends, self.settings, distance, self.monitor)
     }
 
-    fn over_grid(&self) -> Result<Plan, PlanError> {
+    fn over_grid(&self, swarm: Option<&GuidedSwarmSettings>) -> Result<Plan, PlanError> {
         let bound = self.bound(COARSE_DISTANCE)?;
-        match over_grid(self.scene, &self.problem, self.settings, &self.limits, self.monitor) {
+        match over_grid(self.scene, &self.ends, swarm, self.settings, &self.limits, self.monitor) {
             Ok(found) => self.motion_along(found, bound),
             Err(not_found @ PlanError::NotFound { .. }) => {
                 for distance in DISTANCES {
@@ -84,7 +96,7 @@ impl<M: Monitor> Work<'_, M> {
                     // Where there is a path off the grid nothing can be proved against one.
                     let off_grid = over_joints(
                         self.scene,
-                        &self.problem,
+                        &self.ends,
                         Objective::Joint,
                         &self.limits,
                         Search::new(distance, None),
@@ -118,7 +130,7 @@ impl<M: Monitor> Work<'_, M> {
                 let search = Search::new(distance, near);
                 let found = off_grid(
                     self.scene,
-                    &self.problem,
+                    &self.ends,
                     self.settings.objective,
                     &self.limits,
                     search,
@@ -145,9 +157,9 @@ impl<M: Monitor> Work<'_, M> {
 
     /// The best verified motion along any of the paths.
     fn motion_along(&self, found: Found, lower_bound: Option<f64>) -> Result<Plan, PlanError> {
-        let (scene, settings, monitor) = (self.scene, self.settings, self.monitor);
+        let (scene, settings, monitor) = (self.scene.scene(), self.settings, self.monitor);
         monitor.stage(Stage::Trajectory);
-        let stated = stated_limits(&scene.arm);
+        let stated = stated_limits(scene.arm());
         let mut best: Option<Plan> = None;
         let mut refused = PlanError::Stopped;
         for Candidate { path: joint_path, tip_travel, tolerance } in found.candidates {
@@ -156,10 +168,10 @@ impl<M: Monitor> Work<'_, M> {
                 |style| smooth(scene, &joint_path.0, &self.limits, &stated, settings.pace, style, monitor);
             let smoothed = match smooth(flowing) {
                 // Straight turns are refused only where the duration is too short for so many stops.
-                Ok(smoothed) if is_worth_stopping(scene, settings, &joint_path, &smoothed) => {
+                Ok(smoothed) if self.is_worth_stopping(&joint_path, &smoothed) => {
                     // Closer to the path first, then on it with stops.
                     match smooth(Style::Flowing { tolerance: CLOSER * tolerance }) {
-                        Ok(closer) if !is_worth_stopping(scene, settings, &joint_path, &closer) => closer,
+                        Ok(closer) if !self.is_worth_stopping(&joint_path, &closer) => closer,
                         _ => smooth(Style::StopToStop).unwrap_or(smoothed),
                     }
                 }
@@ -170,7 +182,7 @@ impl<M: Monitor> Work<'_, M> {
                     continue;
                 }
             };
-            let cost = cost(&scene.arm, settings.objective, smoothed.trajectory.motion());
+            let cost = cost(scene.arm(), settings.objective, smoothed.trajectory.motion());
             let clearance = |trajectory: &Trajectory| {
                 trajectory.verdict().least_clearance.map_or(f64::INFINITY, |least| least.distance)
             };
@@ -186,8 +198,8 @@ impl<M: Monitor> Work<'_, M> {
                     lower_bound,
                     path_cost: tip_travel,
                     paths_to_choose_from: found.paths,
-                    tip_path: joint_path.tips(&scene.arm),
-                    joint_path: joint_path.any(),
+                    tip_path: joint_path.tips(scene.arm()),
+                    joint_path,
                     vias: smoothed.vias,
                     stops: smoothed.stops,
                     trajectory: smoothed.trajectory,
@@ -198,14 +210,15 @@ impl<M: Monitor> Work<'_, M> {
         }
         best.ok_or(refused)
     }
-}
 
-/// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
-fn is_worth_stopping(scene: &Scene, settings: &PlanSettings, path: &JointPath, smoothed: &Smoothed) -> bool {
-    let own = match (settings.planner, settings.objective) {
-        (Planner::Optimal, Objective::Tip) => path.tip_travel(&scene.arm),
-        (Planner::Optimal, Objective::Joint) => path.length(),
-        _ => return false,
-    };
-    own < (1.0 - WORTH_STOPPING) * cost(&scene.arm, settings.objective, smoothed.trajectory.motion())
+    /// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
+    fn is_worth_stopping(&self, path: &JointPath, smoothed: &Smoothed) -> bool {
+        let (arm, objective) = (self.scene.scene().arm(), self.settings.objective);
+        let own = match (self.paths, objective) {
+            (Paths::OffGrid, Objective::Tip) => path.tip_travel(arm),
+            (Paths::OffGrid, Objective::Joint) => path.length(),
+            _ => return false,
+        };
+        own < (1.0 - WORTH_STOPPING) * cost(arm, objective, smoothed.trajectory.motion())
+    }
 }

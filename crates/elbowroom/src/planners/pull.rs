@@ -1,9 +1,10 @@
 //! Pulls a certified path taut: corners are left out and cut for as long as what remains is certified.
 
+use super::pairs::{joint_path, pairs};
 use super::sheets::direct;
-use crate::arm::{Configuration, Posture};
-use crate::path::{JointPath, sweep_keeps};
-use crate::scene::Scene;
+use crate::arm::{Posture, joint_distance, lerp_pair};
+use crate::path::{JointPath, straight_move_keeps};
+use crate::scene::TwoLinkScene;
 
 /// Rounds of leaving out and cutting; the gain falls by about half with each.
 const ROUNDS: usize = 40;
@@ -28,7 +29,7 @@ pub(crate) enum Plane {
 
 /// What lines may be taken.
 pub(crate) struct Pull<'a> {
-    pub(crate) scene: &'a Scene,
+    pub(crate) scene: TwoLinkScene<'a>,
     pub(crate) plane: Plane,
     /// Clearance kept by what is new (m).
     pub(crate) margin: f64,
@@ -37,7 +38,7 @@ pub(crate) struct Pull<'a> {
 impl Pull<'_> {
     /// `path` pulled taut; every straight turn of the result is certified. `None` if `keep_going` said no.
     pub(crate) fn taut(&self, path: &JointPath, keep_going: &dyn Fn() -> bool) -> Option<JointPath> {
-        let mut corners = self.galloped(&path.0);
+        let mut corners = self.galloped(&pairs(&path.0));
         let mut before = self.length(&corners);
         for _ in 0..ROUNDS {
             if !keep_going() {
@@ -61,47 +62,47 @@ impl Pull<'_> {
                 places.push(pair[1]);
             }
         }
-        Some(JointPath(places))
+        Some(joint_path(&places))
     }
 
     /// `path`, taut already, without the corners that can be left out.
     pub(crate) fn thinned(&self, path: &JointPath) -> JointPath {
-        let mut corners = self.galloped(&path.0);
+        let mut corners = self.galloped(&pairs(&path.0));
         self.leave_out(&mut corners);
-        JointPath(corners)
+        joint_path(&corners)
     }
 
-    fn length(&self, corners: &[Configuration<2>]) -> f64 {
+    fn length(&self, corners: &[[f64; 2]]) -> f64 {
         corners.windows(2).map(|pair| self.distance(&pair[0], &pair[1])).sum()
     }
 
-    fn distance(&self, a: &Configuration<2>, b: &Configuration<2>) -> f64 {
+    fn distance(&self, a: &[f64; 2], b: &[f64; 2]) -> f64 {
         match self.plane {
-            Plane::Joints(weights) => ((b.0[0] - a.0[0]) * weights[0]).hypot((b.0[1] - a.0[1]) * weights[1]),
-            Plane::Tip(_) => self.scene.arm.tip(a).distance(self.scene.arm.tip(b)),
+            Plane::Joints(weights) => ((b[0] - a[0]) * weights[0]).hypot((b[1] - a[1]) * weights[1]),
+            Plane::Tip(_) => self.scene.arm().tip(a).distance(self.scene.arm().tip(b)),
         }
     }
 
     /// The place at `fraction` of the line from `a` to `b`.
-    fn between(&self, a: &Configuration<2>, b: &Configuration<2>, fraction: f64) -> Option<Configuration<2>> {
+    fn between(&self, a: &[f64; 2], b: &[f64; 2], fraction: f64) -> Option<[f64; 2]> {
         match self.plane {
-            Plane::Joints(_) => Some(a.lerp(b, fraction)),
+            Plane::Joints(_) => Some(lerp_pair(a, b, fraction)),
             Plane::Tip(_) => {
-                let arm = &self.scene.arm;
+                let arm = self.scene.arm();
                 let (from, to) = (arm.tip(a), arm.tip(b));
                 let posture = one_posture(a, b)?;
-                let near = a.lerp(b, fraction);
+                let near = lerp_pair(a, b, fraction);
                 let found = arm.inverse(from + (to - from) * fraction, posture).ok()?;
                 found
                     .iter()
                     .filter_map(|q| direct(arm, &near, q))
-                    .min_by(|p, q| p.distance(&near).total_cmp(&q.distance(&near)))
+                    .min_by(|p, q| joint_distance(p, &near).total_cmp(&joint_distance(q, &near)))
             }
         }
     }
 
     /// Appends the turns from `a`, left out, to `b` if they are certified.
-    fn join(&self, a: &Configuration<2>, b: &Configuration<2>, places: &mut Vec<Configuration<2>>) -> bool {
+    fn join(&self, a: &[f64; 2], b: &[f64; 2], places: &mut Vec<[f64; 2]>) -> bool {
         let known = places.len();
         let turns = match self.plane {
             Plane::Joints(_) => 1,
@@ -113,8 +114,8 @@ impl Pull<'_> {
             let to = if turn == turns { Some(*b) } else { self.between(a, b, turn as f64 / turns as f64) };
             // Every configuration must be next to the one before it: no turn taken off on the way.
             let certified = to.filter(|to| {
-                (0..2).all(|j| (to.0[j] - from.0[j]).abs() <= std::f64::consts::PI)
-                    && sweep_keeps(self.scene, &from, to, self.margin)
+                (0..2).all(|j| (to[j] - from[j]).abs() <= std::f64::consts::PI)
+                    && straight_move_keeps(self.scene.scene(), &from, to, self.margin)
             });
             let Some(to) = certified else {
                 places.truncate(known);
@@ -126,12 +127,12 @@ impl Pull<'_> {
         true
     }
 
-    fn is_joined(&self, a: &Configuration<2>, b: &Configuration<2>) -> bool {
+    fn is_joined(&self, a: &[f64; 2], b: &[f64; 2]) -> bool {
         self.join(a, b, &mut Vec::new())
     }
 
     /// A first thinning out: from each corner as far as doubling leaps are certified and shorter.
-    fn galloped(&self, places: &[Configuration<2>]) -> Vec<Configuration<2>> {
+    fn galloped(&self, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut corners = vec![places[0]];
         let mut at = 0;
         while at + 1 < places.len() {
@@ -146,7 +147,7 @@ impl Pull<'_> {
     }
 
     /// Leaves out each corner whose neighbours can be joined.
-    fn leave_out(&self, corners: &mut Vec<Configuration<2>>) {
+    fn leave_out(&self, corners: &mut Vec<[f64; 2]>) {
         let mut i = 1;
         while i + 1 < corners.len() {
             let (a, b) = (&corners[i - 1], &corners[i + 1]);
@@ -160,7 +161,7 @@ impl Pull<'_> {
     }
 
     /// Replaces each corner by two, as far down its sides as the line between them is certified.
-    fn cut(&self, corners: &[Configuration<2>]) -> Vec<Configuration<2>> {
+    fn cut(&self, corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut found = vec![corners[0]];
         for triple in corners.windows(3) {
             let before = found[found.len() - 1];
@@ -192,7 +193,7 @@ impl Pull<'_> {
 }
 
 /// The posture of both, where they have the same.
-fn one_posture(a: &Configuration<2>, b: &Configuration<2>) -> Option<Posture> {
+fn one_posture(a: &[f64; 2], b: &[f64; 2]) -> Option<Posture> {
     match (Posture::of(a), Posture::of(b)) {
         (Some(p), Some(q)) if p != q => None,
         (Some(p), _) | (None, Some(p)) => Some(p),

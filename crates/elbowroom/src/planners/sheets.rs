@@ -1,11 +1,11 @@
 use std::cell::RefCell;
 
 use super::nearest::{Nearest, Obstacles};
-use crate::arm::{Configuration, JointLimits, Posture, TwoLinkArm};
+use crate::arm::{JointLimits, Posture, TwoLink};
 use crate::free_space::FreeSpace;
-use crate::geometry::{Point, angle_difference};
+use crate::geometry::Point;
 use crate::grid::Grid;
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 
 /// Rounding in the count of turns: a range of exactly one turn has one sheet, not two.
 const TURN_ROUNDING: f64 = 1e-9;
@@ -17,7 +17,7 @@ const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
 /// turn more than once round. What is asked of a node is worked out once and kept; a node never asked for costs
 /// four bytes.
 pub(crate) struct Sheets<'a> {
-    scene: &'a Scene,
+    scene: TwoLinkScene<'a>,
     space: &'a FreeSpace,
     /// How near to the edge of the reach is near (m).
     edge_band: f64,
@@ -40,7 +40,7 @@ pub(crate) struct Kept {
 /// What is known of a free node; small, for a fine grid has millions of them.
 #[derive(Clone, Copy)]
 pub(crate) struct Record {
-    pub(crate) q: Configuration<2>,
+    pub(crate) q: [f64; 2],
     pub(super) nearest: Nearest,
     /// Whether the tip is near full stretch or fold.
     pub(crate) is_near_edge: bool,
@@ -91,16 +91,16 @@ impl Record {
 impl<'a> Sheets<'a> {
     /// The sheets over the map of `scene`, with what is known of them already: of the same arm and grid, and told by
     /// [`forget`](Self::forget) where obstacles moved.
-    pub(crate) fn new(scene: &'a Scene, space: &'a FreeSpace, edge_band: f64, kept: Kept) -> Self {
-        let per_posture: usize = scene.arm.joints().iter().map(|joint| turns(&joint.limits)).product();
-        let cells = scene.grid.len();
+    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, edge_band: f64, kept: Kept) -> Self {
+        let per_posture: usize = scene.arm().joints().iter().map(|joint| turns(&joint.limits)).product();
+        let cells = scene.grid().len();
         Self {
             scene,
             space,
             edge_band,
             per_posture,
             cells,
-            steps_around: steps_around(&scene.grid),
+            steps_around: steps_around(scene.grid()),
             obstacles: Obstacles::of(scene),
             kept: kept.of_len(2 * per_posture * cells),
         }
@@ -169,7 +169,7 @@ impl<'a> Sheets<'a> {
 
     /// The cells around `cell`, by their direction; `None` past the edge of the grid.
     pub(crate) fn around(&self, cell: usize) -> [Option<usize>; 8] {
-        let grid = &self.scene.grid;
+        let grid = self.scene.grid();
         let (column, row) = grid.column_row(cell);
         let inside = (1..grid.columns() - 1).contains(&column) && (1..grid.rows() - 1).contains(&row);
         match &self.steps_around {
@@ -179,7 +179,7 @@ impl<'a> Sheets<'a> {
     }
 
     /// The configuration at `node` if it is free.
-    pub(crate) fn configuration(&self, node: usize) -> Option<Configuration<2>> {
+    pub(crate) fn configuration(&self, node: usize) -> Option<[f64; 2]> {
         self.look(node).map(|(_, record)| record.q)
     }
 
@@ -222,21 +222,20 @@ impl<'a> Sheets<'a> {
 
     /// Whether the tip is near full stretch or fold at `node`.
     pub(crate) fn is_near_edge(&self, node: usize) -> bool {
-        let tip = self.scene.grid.point(self.sheet_and_cell(node).1);
-        to_edge(&self.scene.arm, tip) <= self.edge_band
+        let tip = self.scene.grid().point(self.sheet_and_cell(node).1);
+        to_edge(self.scene.arm(), tip) <= self.edge_band
     }
 
     /// The configuration at `node`, whatever the obstacles, if the arm can stand there.
-    pub(crate) fn stand(&self, node: usize) -> Option<Configuration<2>> {
+    pub(crate) fn stand(&self, node: usize) -> Option<[f64; 2]> {
         let (sheet, cell) = self.sheet_and_cell(node);
-        let q = self.scene.arm.inverse_unlimited(self.scene.grid.point(cell), self.posture(node)).ok()?;
-        let [first, second] = self.scene.arm.joints().map(|joint| joint.limits);
-        let mut turned =
-            first.places(q.0[0]).flat_map(|q1| second.places(q.0[1]).map(move |q2| Configuration([q1, q2])));
+        let q = self.scene.arm().inverse_unlimited(self.scene.grid().point(cell), self.posture(node)).ok()?;
+        let [first, second] = self.scene.arm().joints().map(|joint| joint.limits);
+        let mut turned = first.places(q[0]).flat_map(|q1| second.places(q[1]).map(move |q2| [q1, q2]));
         turned.nth(sheet % self.per_posture)
     }
 
-    fn work_out(&self, node: usize, q: Configuration<2>) -> Record {
+    fn work_out(&self, node: usize, q: [f64; 2]) -> Record {
         let nearest = self.obstacles.nearest_to(&q);
         let is_near_edge = self.is_near_edge(node);
         Record { q, nearest, is_near_edge, is_due: false, known: 0, certified: 0 }
@@ -272,7 +271,7 @@ fn steps_around(grid: &Grid) -> Option<[isize; 8]> {
 }
 
 /// From `tip` to the nearer edge of the reach (m).
-pub(crate) fn to_edge(arm: &TwoLinkArm, tip: Point) -> f64 {
+pub(crate) fn to_edge(arm: &TwoLink, tip: Point) -> f64 {
     let [nearest, farthest] = arm.reach();
     let distance = tip.distance(arm.base());
     (farthest - distance).min(distance - nearest).max(0.0)
@@ -291,16 +290,8 @@ fn turns(limits: &JointLimits) -> usize {
 /// The configuration that `to` is when the joints turn there from `from` directly: a continuous joint the
 /// short way, with its turns counted; one with stops by the plain difference. `None` when a joint would
 /// turn by half a turn or more, which no single step of a path needs.
-pub(crate) fn direct(
-    arm: &TwoLinkArm,
-    from: &Configuration<2>,
-    to: &Configuration<2>,
-) -> Option<Configuration<2>> {
-    let step = |j: usize| match arm.joints()[j].limits {
-        JointLimits::Continuous => angle_difference(from.0[j], to.0[j]),
-        JointLimits::Range { .. } => to.0[j] - from.0[j],
-    };
-    let steps = [step(0), step(1)];
+pub(crate) fn direct(arm: &TwoLink, from: &[f64; 2], to: &[f64; 2]) -> Option<[f64; 2]> {
+    let steps = arm.difference(from, to);
     let short = steps[0].abs() <= MOST_TURN && steps[1].abs() <= MOST_TURN;
-    short.then(|| Configuration([from.0[0] + steps[0], from.0[1] + steps[1]]))
+    short.then(|| [from[0] + steps[0], from[1] + steps[1]])
 }

@@ -2,7 +2,7 @@
 
 use super::settings::Pace;
 use super::{Monitor, PlanError};
-use crate::arm::Arm;
+use crate::arm::Configuration;
 use crate::path::simplify;
 use crate::scene::Scene;
 use crate::trajectory::{
@@ -64,9 +64,9 @@ impl SmoothError {
 ///
 /// Quintic pieces through few vias at first; where the verifier refuses a piece, places between its ends become
 /// vias too, and where none is left the piece is turned straight, from stop to stop.
-pub(crate) fn smooth<A: Arm, Q: AsRef<[f64]>>(
-    scene: &Scene<A>,
-    places: &[Q],
+pub(crate) fn smooth(
+    scene: &Scene,
+    places: &[Configuration],
     limits: &[SpeedLimits],
     stated: &[SpeedLimits],
     pace: Pace,
@@ -75,7 +75,7 @@ pub(crate) fn smooth<A: Arm, Q: AsRef<[f64]>>(
 ) -> Result<Smoothed, SmoothError> {
     let (mut chosen, mut stops) = match style {
         Style::Flowing { tolerance } => {
-            (simplify(&scene.arm, places, tolerance * scene.grid.step()), vec![false; places.len()])
+            (simplify(scene.arm(), places, tolerance * scene.grid().step()), vec![false; places.len()])
         }
         Style::StopToStop => ((0..places.len()).collect(), vec![true; places.len()]),
     };
@@ -86,7 +86,7 @@ pub(crate) fn smooth<A: Arm, Q: AsRef<[f64]>>(
         if !monitor.keep_going() {
             return Err(SmoothError::Stopped);
         }
-        let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: places[i].as_ref(), stop: stops[i] }).collect();
+        let vias: Vec<Via> = chosen.iter().map(|&i| Via { q: &places[i], stop: stops[i] }).collect();
         let durations = durations_of(&vias, limits, stated, pace)?;
         let motion = Motion::new(quintic_through(&vias, &durations)).map_err(SmoothError::Motion)?;
         let keep_going = || monitor.keep_going();

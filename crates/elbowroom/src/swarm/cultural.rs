@@ -6,6 +6,7 @@ use thiserror::Error;
 
 use super::particles::{clamped, units};
 use super::{Bounds, Swarm, SwarmError, SwarmSettings, Value};
+use crate::random::unit;
 
 /// Least of the greatest speeds, as a share of the box's width: a culture that agrees on one place would stop all.
 const LEAST_SPEED: f64 = 1e-3;
@@ -251,7 +252,6 @@ fn share_of(count: usize, share: f64) -> usize {
 
 /// A number of the standard normal distribution, by Box and Muller.
 fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let mut unit = || (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    let (radius, turn) = (1.0 - unit(), unit());
+    let (radius, turn) = (1.0 - unit(rng), unit(rng));
     (-2.0 * libm::log(radius)).sqrt() * libm::cos(std::f64::consts::TAU * turn)
 }

@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 use thiserror::Error;
 
 use super::views::{Successor, Terrain, Views};
+use crate::random::unit;
 use crate::search::Graph;
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
@@ -229,9 +230,4 @@ impl Walk<'_> {
         let (_, velocity, next) = chosen?;
         Some(Footprint { spot: next.spot, velocity, cost: here.cost + next.cost })
     }
-}
-
-/// A number in [0, 1).
-fn unit(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }

@@ -18,7 +18,7 @@ const GAUSS: [(f64, f64); 5] = [
 
 impl Motion {
     /// Length of the tip's way with `arm` (m).
-    pub fn tip_length(&self, arm: &impl Arm) -> f64 {
+    pub fn tip_length(&self, arm: &Arm) -> f64 {
         self.integral(|piece, s| {
             let (mut direction, mut turn, mut velocity) = (0.0, 0.0, Vector::new(0.0, 0.0));
             for (length, terms) in arm.lengths().iter().zip(&piece.coefficients) {

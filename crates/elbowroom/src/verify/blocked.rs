@@ -1,9 +1,9 @@
 //! Whether the arm, or its tip, cannot be anywhere along a line: the opposite of a sweep.
 
 use super::clearance::{Axis, Body};
-use crate::arm::Configuration;
+use crate::arm::lerp_pair;
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 
 /// Halvings after which a stretch of a line is given up.
 const DEEPEST: u32 = 24;
@@ -20,11 +20,11 @@ pub(super) struct Blocked<'a> {
 type Witness = Option<(usize, usize)>;
 
 impl<'a> Blocked<'a> {
-    pub(super) fn new(scene: &'a Scene) -> Self {
-        let arm = &scene.arm;
+    pub(super) fn new(scene: TwoLinkScene<'a>) -> Self {
+        let arm = scene.arm();
         let (base, [l1, l2]) = (arm.base(), arm.lengths());
         let reach = base.x.abs() + base.y.abs() + l1 + l2 + arm.half_width();
-        let bodies = scene.obstacles.iter().map(|obstacle| {
+        let bodies = scene.obstacles().iter().map(|obstacle| {
             let body = Body::new(&obstacle.shape);
             let rounding = body.rounding(reach);
             (body, rounding)
@@ -39,7 +39,7 @@ impl<'a> Blocked<'a> {
 
     /// Whether at every place of the straight turn from `from` to `to` a link touches an obstacle: proved, not
     /// sampled. A link that is `d` deep at a place still touches where none of its points moved by more than `d`.
-    pub(super) fn all_along(&self, from: &Configuration<2>, to: &Configuration<2>) -> bool {
+    pub(super) fn all_along(&self, from: &[f64; 2], to: &[f64; 2]) -> bool {
         let mut witness = None;
         self.between(from, to, &mut witness, 0)
     }
@@ -58,15 +58,9 @@ impl<'a> Blocked<'a> {
                 && self.tip_all_along(middle, to, depth + 1))
     }
 
-    fn between(
-        &self,
-        from: &Configuration<2>,
-        to: &Configuration<2>,
-        witness: &mut Witness,
-        depth: u32,
-    ) -> bool {
-        let middle = from.lerp(to, 0.5);
-        let turn = [0.5 * (to.0[0] - from.0[0]), 0.5 * (to.0[1] - from.0[1])];
+    fn between(&self, from: &[f64; 2], to: &[f64; 2], witness: &mut Witness, depth: u32) -> bool {
+        let middle = lerp_pair(from, to, 0.5);
+        let turn = [0.5 * (to[0] - from[0]), 0.5 * (to[1] - from[1])];
         let first = self.lengths[0] * turn[0].abs();
         let bounds = [first, first + self.lengths[1] * (turn[0] + turn[1]).abs()];
         let axes = self.axes(&middle);
@@ -99,8 +93,8 @@ impl<'a> Blocked<'a> {
             && self.between(&middle, to, witness, depth + 1)
     }
 
-    fn axes(&self, q: &Configuration<2>) -> [Axis; 2] {
-        let ((s1, c1), (s2, c2)) = (libm::sincos(q.0[0]), libm::sincos(q.0[0] + q.0[1]));
+    fn axes(&self, q: &[f64; 2]) -> [Axis; 2] {
+        let ((s1, c1), (s2, c2)) = (libm::sincos(q[0]), libm::sincos(q[0] + q[1]));
         let [l1, l2] = self.lengths;
         let elbow = [self.base[0] + l1 * c1, self.base[1] + l1 * s1];
         [

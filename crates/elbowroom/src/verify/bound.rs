@@ -3,9 +3,9 @@ use std::f64::consts::{PI, TAU};
 use thiserror::Error;
 
 use super::blocked::Blocked;
-use crate::arm::{Configuration, JointLimits};
+use crate::arm::JointLimits;
 use crate::geometry::{Point, Vector};
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
@@ -21,9 +21,9 @@ pub struct OpenJoints<'a> {
     /// The cells and their walls.
     pub surface: &'a Surface,
     /// Where each start is.
-    pub starts: &'a [(Configuration<2>, SurfacePlace)],
+    pub starts: &'a [([f64; 2], SurfacePlace)],
     /// The goals; where they are on the surface is found out.
-    pub goals: &'a [Configuration<2>],
+    pub goals: &'a [[f64; 2]],
     /// Whether the posture must not change: walls may stand at full stretch and fold.
     pub keeps_posture: bool,
 }
@@ -92,18 +92,18 @@ pub enum BoundError {
 /// # Errors
 /// [`BoundError`]
 pub fn bound_over_joints(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     claim: &OpenJoints<'_>,
     measure: Measure,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
     for (q, place) in claim.starts {
         if !stands_at(scene, q, place, claim.surface) {
-            return Err(BoundError::Place { q: q.0 });
+            return Err(BoundError::Place { q: *q });
         }
     }
     let surface = claim.surface;
-    check_seams(surface, |j, way| match scene.arm.joints()[j].limits {
+    check_seams(surface, |j, way| match scene.arm().joints()[j].limits {
         JointLimits::Continuous => (way - TAU * (way / TAU).round()).abs() <= ANGLE_ROUNDING,
         JointLimits::Range { .. } => way == 0.0,
     })?;
@@ -112,12 +112,12 @@ pub fn bound_over_joints(
     let stands = |from: Point, to: Point| {
         at_stop(scene, from, to)
             || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)
-            || blocked.all_along(&Configuration([from.x, from.y]), &Configuration([to.x, to.y]))
+            || blocked.all_along(&[from.x, from.y], &[to.x, to.y])
     };
     if let Some([from, to]) = first_gap(surface, &|cell| reached[cell], &stands, keep_going)? {
         return Err(BoundError::Wall { from: [from.x, from.y], to: [to.x, to.y] });
     }
-    let angles: Vec<Point> = claim.goals.iter().map(|q| Point::new(q.0[0], q.0[1])).collect();
+    let angles: Vec<Point> = claim.goals.iter().map(|q| Point::new(q[0], q[1])).collect();
     let images = images(scene, surface, &angles);
     let goals = places_of(surface, &reached, &images);
     if goals.is_empty() {
@@ -196,11 +196,11 @@ pub(super) fn first_gap(
 }
 
 /// Whether `place` holds `q`, whole turns of continuous joints aside.
-fn stands_at(scene: &Scene, q: &Configuration<2>, place: &SurfacePlace, surface: &Surface) -> bool {
+fn stands_at(scene: TwoLinkScene<'_>, q: &[f64; 2], place: &SurfacePlace, surface: &Surface) -> bool {
     let at = [place.point.x, place.point.y];
     let same = (0..2).all(|j| {
-        let apart = at[j] - q.0[j];
-        let turns = match scene.arm.joints()[j].limits {
+        let apart = at[j] - q[j];
+        let turns = match scene.arm().joints()[j].limits {
             JointLimits::Continuous => TAU * (apart / TAU).round(),
             JointLimits::Range { .. } => 0.0,
         };
@@ -210,12 +210,12 @@ fn stands_at(scene: &Scene, q: &Configuration<2>, place: &SurfacePlace, surface:
 }
 
 /// Whether the line from `from` to `to` lies at or beyond a stop of a joint.
-fn at_stop(scene: &Scene, from: Point, to: Point) -> bool {
+fn at_stop(scene: TwoLinkScene<'_>, from: Point, to: Point) -> bool {
     let beyond = |limits: &JointLimits, a: f64, b: f64| match *limits {
         JointLimits::Continuous => false,
         JointLimits::Range { min, max } => (a <= min && b <= min) || (a >= max && b >= max),
     };
-    let [first, second] = scene.arm.joints();
+    let [first, second] = scene.arm().joints();
     beyond(&first.limits, from.x, to.x) || beyond(&second.limits, from.y, to.y)
 }
 
@@ -224,7 +224,7 @@ fn is_in_line(point: Point) -> bool {
 }
 
 /// The goals in every turn of continuous joints that can be next to a cell.
-pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[Point]) -> Vec<Point> {
+pub(crate) fn images(scene: TwoLinkScene<'_>, surface: &Surface, goals: &[Point]) -> Vec<Point> {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
     for side in (0..surface.len()).flat_map(|cell| surface.sides(cell)) {
@@ -233,7 +233,7 @@ pub(crate) fn images(scene: &Scene, surface: &Surface, goals: &[Point]) -> Vec<P
             high[j] = high[j].max(v);
         }
     }
-    let turns = |j: usize, at: f64| match scene.arm.joints()[j].limits {
+    let turns = |j: usize, at: f64| match scene.arm().joints()[j].limits {
         JointLimits::Continuous => {
             let (first, last) = ((low[j] - PI - at) / TAU, (high[j] + PI - at) / TAU);
             first.floor() as i64..=last.ceil() as i64

@@ -2,9 +2,9 @@ use std::f64::consts::{PI, TAU};
 
 use super::blocked::Blocked;
 use super::bound::{BoundError, Reachability, SUM_ROUNDING, check_seams, first_gap, places_of};
-use crate::arm::{Configuration, JointLimits, TwoLinkArm};
+use crate::arm::{JointLimits, TwoLink};
 use crate::geometry::Point;
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 use crate::surface::{Measure, Surface, SurfacePlace, taut_path};
 
 /// Rounding that a place of the tip may have gone through, as a share of the greatest coordinate.
@@ -16,9 +16,9 @@ pub struct OpenTips<'a> {
     /// The cells and their walls.
     pub surface: &'a Surface,
     /// Where each start is.
-    pub starts: &'a [(Configuration<2>, SurfacePlace)],
+    pub starts: &'a [([f64; 2], SurfacePlace)],
     /// The goals; where they are on the surface is found out.
-    pub goals: &'a [Configuration<2>],
+    pub goals: &'a [[f64; 2]],
 }
 
 /// A lower bound of the tip travel (m) of every motion from any of the starts to any of the goals: every wall is shown
@@ -27,18 +27,18 @@ pub struct OpenTips<'a> {
 /// # Errors
 /// [`BoundError`]
 pub fn bound_over_tips(
-    scene: &Scene,
+    scene: TwoLinkScene<'_>,
     claim: &OpenTips<'_>,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
-    let arm = &scene.arm;
+    let arm = scene.arm();
     let (surface, [_, reach]) = (claim.surface, arm.reach());
     let size = arm.base().x.abs() + arm.base().y.abs() + reach;
     check_seams(surface, |_, way| way == 0.0)?;
     for (q, place) in claim.starts {
         let near = place.point.distance(arm.tip(q)) <= TIP_ROUNDING * size;
         if !(near && place.cell < surface.len() && surface.holds(place.cell, place.point)) {
-            return Err(BoundError::Place { q: q.0 });
+            return Err(BoundError::Place { q: *q });
         }
     }
     let blocked = Blocked::new(scene);
@@ -73,7 +73,7 @@ pub fn bound_over_tips(
 }
 
 /// How near to the base the tip can come (m), by the links and where the second joint may be.
-pub(crate) fn innermost_reach(arm: &TwoLinkArm) -> f64 {
+pub(crate) fn innermost_reach(arm: &TwoLink) -> f64 {
     let ([l1, l2], [nearest, _]) = (arm.lengths(), arm.reach());
     match arm.joints()[1].limits {
         JointLimits::Continuous => nearest,

@@ -1,6 +1,6 @@
 //! Where obstacles that move are, by the verifier's own reckoning.
 
-use crate::scene::{Course, Mover};
+use crate::scene::{Course, ObstacleMotion};
 
 /// Rounding of a shift as a share of what it is made from: some eight roundings, and twice as many for safety.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -13,8 +13,8 @@ pub(super) struct Way<'a> {
 }
 
 impl<'a> Way<'a> {
-    pub(super) fn new(mover: &'a Mover) -> Self {
-        Self { course: mover.course(), speed: mover.greatest_speed() }
+    pub(super) fn new(motion: &'a ObstacleMotion) -> Self {
+        Self { course: motion.course(), speed: motion.greatest_speed() }
     }
 
     /// Whether there is anything to touch.

@@ -48,7 +48,7 @@ impl Stretch {
 /// Every link with every obstacle and, where `links` are given, with every link before it that is no neighbour: that
 /// one stands still where it is looked from, and the links between them are the carriers.
 pub(super) fn pairs<'a>(
-    arm: &'a impl Arm,
+    arm: &'a Arm,
     obstacles: &'a [Body<'a>],
     ways: &[Option<Way<'a>>],
     links: &'a [Body<'a>],

@@ -6,9 +6,8 @@ use super::moving::Way;
 use super::pairs::{Curves, Pair, Stretch, pairs};
 use super::verdict::{Clearance, Violation};
 use super::{FLOOR, VerifySettings};
-use crate::arm::Arm;
 use crate::geometry::Point;
-use crate::scene::{Mover, Scene};
+use crate::scene::Scene;
 use crate::trajectory::Piece;
 
 /// An interval over which a link moves by no more than this (m) is not halved again.
@@ -38,23 +37,22 @@ const LEAST_SOUNDINGS: usize = 4;
 const THIRDS: u32 = 40;
 
 /// A motion, piece by piece, and a scene in time.
-pub(super) struct Passage<'a, A> {
-    pub(super) scene: &'a Scene<A>,
-    pub(super) movers: &'a [Mover],
+pub(super) struct Passage<'a> {
+    pub(super) scene: &'a Scene,
     pub(super) pieces: &'a [&'a Piece],
     /// Jumps between pieces, which passed as rounding; they must not carry a link through what stays of the clearance:
     /// its way is kept on top.
     pub(super) passed_jumps: &'a [f64],
 }
 
-impl<A: Arm> Passage<'_, A> {
+impl Passage<'_> {
     /// Does `work` with the pieces and with all links and what they must not touch.
     fn with_pairs<T>(&self, work: impl FnOnce(&[Stretch], &[Pair]) -> T) -> T {
-        let arm = &self.scene.arm;
+        let arm = self.scene.arm();
         let stretches: Vec<Stretch> =
             self.pieces.iter().map(|piece| Stretch::new(piece, arm.self_collision())).collect();
-        let bodies: Vec<Body> =
-            self.scene.obstacles.iter().map(|obstacle| Body::new(&obstacle.shape)).collect();
+        let obstacles = self.scene.obstacles();
+        let bodies: Vec<Body> = obstacles.iter().map(|obstacle| Body::new(&obstacle.shape)).collect();
         // Each link in its own frame, for those after it.
         let lines: Vec<[Point; 2]> = match arm.self_collision() {
             true => {
@@ -63,8 +61,8 @@ impl<A: Arm> Passage<'_, A> {
             false => Vec::new(),
         };
         let links: Vec<Body> = lines.iter().map(Body::segment).collect();
-        let way = |obstacle| self.movers.iter().find(|mover| mover.obstacle() == obstacle).map(Way::new);
-        let ways: Vec<Option<Way>> = (0..bodies.len()).map(way).collect();
+        let ways: Vec<Option<Way>> =
+            obstacles.iter().map(|obstacle| obstacle.motion.as_ref().map(Way::new)).collect();
         let ends = stretches.first().zip(stretches.last());
         let times = ends.map_or([0.0; 2], |(first, last)| [first.time(0.0), last.time(1.0)]);
         let pairs = pairs(arm, &bodies, &ways, &links, self.passed_jumps, times);

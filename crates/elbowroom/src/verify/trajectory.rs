@@ -1,7 +1,6 @@
 use super::{Quantity, Verdict, VerifySettings, verify_until};
-use crate::arm::Arm;
 use crate::scene::Scene;
-use crate::trajectory::Motion;
+use crate::trajectory::{Motion, Piece};
 
 /// A motion that is proved to be safe in its scene. There is no other way to make one than to have it judged.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,11 +14,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// The verdict, if it is not proved to be safe.
-    pub fn certify<A: Arm>(
-        scene: &Scene<A>,
-        motion: Motion,
-        settings: &VerifySettings,
-    ) -> Result<Self, Box<Verdict>> {
+    pub fn certify(scene: &Scene, motion: Motion, settings: &VerifySettings) -> Result<Self, Box<Verdict>> {
         Self::certify_until(scene, motion, settings, &|| true)
     }
 
@@ -27,8 +22,8 @@ impl Trajectory {
     ///
     /// # Errors
     /// The verdict, if it is not proved to be safe, be it for want of time.
-    pub fn certify_until<A: Arm>(
-        scene: &Scene<A>,
+    pub fn certify_until(
+        scene: &Scene,
         motion: Motion,
         settings: &VerifySettings,
         keep_going: &dyn Fn() -> bool,
@@ -46,6 +41,21 @@ impl Trajectory {
     /// What the verifier found, with no violation in it.
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
+    }
+
+    /// The first part of it, up to `end` (s), which is as safe as the whole; the verdict stays that of the whole, times and
+    /// margins too. The arm need not be at rest at its end. `None` if that is the start or earlier.
+    #[must_use]
+    pub fn before(self, end: f64) -> Option<Self> {
+        // Pieces that end by then stay as they are, to the last bit.
+        let pieces: Vec<Piece> =
+            self.motion.pieces().iter().filter(|piece| piece.start < end).cloned().collect();
+        let motion = if pieces.iter().all(|piece| piece.start + piece.duration <= end) {
+            Motion::new(pieces).ok()?
+        } else {
+            self.motion.before(end)?
+        };
+        Some(Self { motion, ..self })
     }
 
     /// The polynomials, out of the verifier's hands.

@@ -2,8 +2,9 @@ use std::fmt;
 
 use thiserror::Error;
 
-/// What the verifier found.
+/// What the verifier found: it alone makes one.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Verdict {
     /// Why the motion is not safe, in order of time; none when it is. Of every kind at most one per joint, or
     /// per link and what it must not touch.

@@ -1,11 +1,9 @@
 //! A judge of motions of arms with any number of links that shares no code with the crate: textbook kinematics, another
 //! library's distances, and many looks.
 
-use std::path::Path;
-
-use elbowroom::arm::{Arm, JointLimits, PlanarArm};
+use elbowroom::arm::{Arm, JointLimits};
 use elbowroom::planners::Plan;
-use elbowroom::scene::{Place, Scene, Task, parse};
+use elbowroom::scene::{Place, Scene, Task};
 
 use crate::distance::distance;
 
@@ -14,15 +12,8 @@ type P = [f64; 2];
 /// Looks at each piece of a motion.
 const LOOKS: usize = 60;
 
-/// An example scene of the repository.
-pub(crate) fn example(name: &str) -> Scene<PlanarArm> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/elbowroom/scenes");
-    let text = std::fs::read_to_string(folder.join(format!("{name}.yaml"))).unwrap();
-    parse(&text, name).unwrap().scene
-}
-
 /// Where base, joints and tip are at `q` (m).
-fn skeleton(arm: &PlanarArm, q: &[f64]) -> Vec<P> {
+fn skeleton(arm: &Arm, q: &[f64]) -> Vec<P> {
     let mut points = vec![[arm.base().x, arm.base().y]];
     for (k, length) in arm.lengths().iter().enumerate() {
         let direction: f64 = q[..=k].iter().sum();
@@ -45,16 +36,16 @@ fn between(a: [P; 2], b: [P; 2]) -> f64 {
 }
 
 /// Least clearance at `q` of links from obstacles and from each other (m).
-pub(crate) fn clearance(scene: &Scene<PlanarArm>, q: &[f64]) -> f64 {
-    let points = skeleton(&scene.arm, q);
+pub(crate) fn clearance(scene: &Scene, q: &[f64]) -> f64 {
+    let points = skeleton(scene.arm(), q);
     let links: Vec<[P; 2]> = points.windows(2).map(|pair| [pair[0], pair[1]]).collect();
-    let width = scene.arm.half_width();
+    let width = scene.arm().half_width();
     let mut least = f64::INFINITY;
     for (i, link) in links.iter().enumerate() {
-        for obstacle in &scene.obstacles {
+        for obstacle in scene.obstacles() {
             least = least.min(distance(obstacle, link[0], link[1]) - width);
         }
-        if scene.arm.self_collision() {
+        if scene.arm().self_collision() {
             for before in links.iter().take(i.saturating_sub(1)) {
                 least = least.min(between(*before, *link) - 2.0 * width);
             }
@@ -64,29 +55,31 @@ pub(crate) fn clearance(scene: &Scene<PlanarArm>, q: &[f64]) -> f64 {
 }
 
 /// Whether the tip or the joints are where `place` says at `q`; a continuous joint may have been counted on by turns.
-fn is_at(arm: &PlanarArm, place: &Place, q: &[f64]) -> bool {
+fn is_at(arm: &Arm, place: &Place, q: &[f64]) -> bool {
     match place {
         Place::Tip(tip) => {
             let [x, y] = *skeleton(arm, q).last().unwrap();
             (x - tip.x).hypot(y - tip.y) < 1e-9
         }
-        Place::Configuration(asked) => q.iter().zip(asked).zip(arm.joints()).all(|((q, asked), joint)| {
-            let off = match joint.limits {
-                JointLimits::Continuous => 2.0 * ((q - asked) / 2.0).sin(),
-                JointLimits::Range { .. } => q - asked,
-            };
-            off.abs() < 1e-9
-        }),
+        Place::Configuration(asked) => {
+            q.iter().zip(asked.iter()).zip(arm.joints()).all(|((q, asked), joint)| {
+                let off = match joint.limits {
+                    JointLimits::Continuous => 2.0 * ((q - asked) / 2.0).sin(),
+                    JointLimits::Range { .. } => q - asked,
+                };
+                off.abs() < 1e-9
+            })
+        }
     }
 }
 
 /// All that is promised of a plan, looked at from outside.
-pub(crate) fn assert_true(scene: &Scene<PlanarArm>, task: &Task, plan: &Plan) {
+pub(crate) fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
     let motion = plan.trajectory.motion();
     assert!(plan.trajectory.verdict().is_safe());
     let (first, last) = (motion.at(motion.start()), motion.at(motion.end()));
-    assert!(is_at(&scene.arm, &task.start, &first.position), "{:?} is not {:?}", first.position, task.start);
-    assert!(is_at(&scene.arm, &task.goal, &last.position), "{:?} is not {:?}", last.position, task.goal);
+    assert!(is_at(scene.arm(), &task.start, &first.position), "{:?} is not {:?}", first.position, task.start);
+    assert!(is_at(scene.arm(), &task.goal, &last.position), "{:?} is not {:?}", last.position, task.goal);
     for end in [&first, &last] {
         assert!(end.velocity.iter().chain(&end.acceleration).all(|rate| rate.abs() < 1e-6));
     }
@@ -98,7 +91,7 @@ pub(crate) fn assert_true(scene: &Scene<PlanarArm>, task: &Task, plan: &Plan) {
             let q: Vec<f64> = piece.coefficients.iter().map(at).collect();
             let clear = clearance(scene, &q);
             assert!(clear > 0.0, "clearance {clear} m at {q:?}");
-            for (angle, joint) in q.iter().zip(scene.arm.joints()) {
+            for (angle, joint) in q.iter().zip(scene.arm().joints()) {
                 if let JointLimits::Range { min, max } = joint.limits {
                     assert!((min - 1e-9..=max + 1e-9).contains(angle), "{q:?}");
                 }
@@ -114,7 +107,7 @@ pub(crate) fn assert_true(scene: &Scene<PlanarArm>, task: &Task, plan: &Plan) {
     for pair in plan.joint_path.0.windows(2) {
         for look in 0..=LOOKS {
             let share = look as f64 / LOOKS as f64;
-            let q: Vec<f64> = pair[0].iter().zip(&pair[1]).map(|(a, b)| a + (b - a) * share).collect();
+            let q: Vec<f64> = pair[0].iter().zip(pair[1].iter()).map(|(a, b)| a + (b - a) * share).collect();
             assert!(clearance(scene, &q) > 0.0, "the path touches at {q:?}");
         }
     }

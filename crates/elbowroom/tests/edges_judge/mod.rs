@@ -1,15 +1,14 @@
 //! Random swept edges, half of them within a hair's breadth of contact, and a rigorous judge of them: outward-rounded
 //! boxes around elbow and tip, halved until they decide.
 
-use elbowroom::arm::{Configuration, Joint, JointLimits, MotionLimits, TwoLinkArm};
+use elbowroom::arm::{Arm, Joint};
 use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::grid::Grid;
-use elbowroom::path::sweep_is_free;
+use elbowroom::path::straight_move_is_free;
 use elbowroom::scene::{Obstacle, Scene, Shape};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use crate::distance;
+use crate::{build, distance};
 
 /// What sine and cosine of the platform may be off by, and then some.
 const TRIGONOMETRY: f64 = 1e-15;
@@ -87,28 +86,33 @@ struct Edge {
     to: [f64; 2],
 }
 
-fn at(edge: &Edge, t: f64) -> [f64; 2] {
-    [0, 1].map(|j| edge.from[j] + (edge.to[j] - edge.from[j]) * t)
+fn between(from: [f64; 2], to: [f64; 2], t: f64) -> [f64; 2] {
+    [0, 1].map(|j| from[j] + (to[j] - from[j]) * t)
 }
 
-fn ends_of_links(scene: &Scene, q: [f64; 2]) -> [[f64; 2]; 3] {
-    let (base, [l1, l2]) = (scene.arm.base(), scene.arm.lengths());
+fn at(edge: &Edge, t: f64) -> [f64; 2] {
+    between(edge.from, edge.to, t)
+}
+
+fn ends_of_links(arm: &Arm, q: [f64; 2]) -> [[f64; 2]; 3] {
+    let (base, l1, l2) = (arm.base(), arm.lengths()[0], arm.lengths()[1]);
     let elbow = [base.x + l1 * q[0].cos(), base.y + l1 * q[0].sin()];
     [[base.x, base.y], elbow, [elbow[0] + l2 * (q[0] + q[1]).cos(), elbow[1] + l2 * (q[0] + q[1]).sin()]]
 }
 
 /// Clearance of the nearer link (m).
 fn clearance(scene: &Scene, q: [f64; 2]) -> f64 {
-    let [base, elbow, tip] = ends_of_links(scene, q);
+    let [base, elbow, tip] = ends_of_links(scene.arm(), q);
     let links = [(base, elbow), (elbow, tip)];
     let distances =
-        links.iter().flat_map(|&(a, b)| scene.obstacles.iter().map(move |o| distance::distance(o, a, b)));
-    distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width()
+        links.iter().flat_map(|&(a, b)| scene.obstacles().iter().map(move |o| distance::distance(o, a, b)));
+    distances.fold(f64::INFINITY, f64::min) - scene.arm().half_width()
 }
 
 /// More than any point of either link moves from its place at the middle of `t0` to `t1` (m).
 fn movement(edge: &Edge, t0: f64, t1: f64) -> f64 {
-    let [l1, l2] = edge.scene.arm.lengths();
+    let lengths = edge.scene.arm().lengths();
+    let (l1, l2) = (lengths[0], lengths[1]);
     let rounding = 1e-15 * (edge.from[0].abs() + edge.from[1].abs() + 1.0);
     let wide = |a: f64, b: f64| {
         let range = Range::new(a, b);
@@ -161,14 +165,12 @@ fn random_edge(rng: &mut ChaCha8Rng) -> Option<Edge> {
     let l1 = number(rng, 0.05, 0.6);
     let l2 = if rng.next_u64() & 1 == 0 { l1 } else { number(rng, 0.05, 0.6) };
     let half_width = if rng.next_u64() & 1 == 0 { 0.0 } else { number(rng, 0.0, 0.03) };
-    let free = Joint { limits: JointLimits::Continuous, motion: MotionLimits::default() };
-    let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [l1, l2], half_width, [free; 2]).ok()?;
-    let grid = Grid::new([0.0, 0.0], [0.0, 0.0], 1.0).ok()?;
+    let arm = build::arm_of(&[l1, l2], half_width, &[Joint::CONTINUOUS; 2]);
     let from = [number(rng, -4.0, 4.0), number(rng, -3.1, 3.1)];
     let turn = 10f64.powf(number(rng, -4.0, 0.0));
     let way = number(rng, -std::f64::consts::PI, std::f64::consts::PI);
     let to = [from[0] + turn * way.cos(), from[1] + turn * way.sin()];
-    let mut edge = Edge { scene: Scene { arm, grid, obstacles: Vec::new(), tasks: Vec::new() }, from, to };
+    let mut obstacles = Vec::new();
     let reach = l1 + l2;
     for _ in 0..=rng.next_u64() % 3 {
         let (distance, angle) = (reach * number(rng, 0.02, 1.1), number(rng, -4.0, 4.0));
@@ -181,14 +183,14 @@ fn random_edge(rng: &mut ChaCha8Rng) -> Option<Edge> {
         } else {
             Shape::Circle(Circle { center, radius: 10f64.powf(number(rng, -4.3, -1.0)) })
         };
-        edge.scene.obstacles.push(Obstacle { name: None, shape });
+        obstacles.push(Obstacle::still(shape));
     }
     // Every other edge: the first circle is made to end within a hair's breadth of the arm somewhere on its way.
     if rng.next_u64() & 1 == 0 {
-        let there = ends_of_links(&edge.scene, at(&edge, number(rng, 0.0, 1.0)));
-        if let Shape::Circle(circle) = &mut edge.scene.obstacles[0].shape {
+        let there = ends_of_links(&arm, between(from, to, number(rng, 0.0, 1.0)));
+        if let Shape::Circle(circle) = &mut obstacles[0].shape {
             let dot = Circle { radius: 0.0, ..*circle };
-            let dot = Obstacle { name: None, shape: Shape::Circle(dot) };
+            let dot = Obstacle::still(Shape::Circle(dot));
             let [base, elbow, tip] = there;
             let near = distance::distance(&dot, base, elbow).min(distance::distance(&dot, elbow, tip));
             let side = if rng.next_u64() & 1 == 0 { 1.0 } else { -1.0 };
@@ -198,7 +200,7 @@ fn random_edge(rng: &mut ChaCha8Rng) -> Option<Edge> {
             }
         }
     }
-    Some(edge)
+    Some(Edge { scene: build::scene(arm, obstacles), from, to })
 }
 
 /// Compares the planners' certificate with the judge on `count` edges from `seed` on.
@@ -208,7 +210,7 @@ pub(crate) fn compare(seed: u64, count: u64) -> Tally {
     while tally.edges < count {
         let Some(edge) = random_edge(&mut rng) else { continue };
         tally.edges += 1;
-        let free = sweep_is_free(&edge.scene, &Configuration(edge.from), &Configuration(edge.to));
+        let free = straight_move_is_free(&edge.scene, &edge.from, &edge.to);
         match (free, judge(&edge)) {
             (true, Answer::Free(_)) => tally.free += 1,
             (true, Answer::Contact) => tally.unsafe_called_free += 1,

@@ -9,7 +9,8 @@ use crate::distance::distance;
 
 /// Where base, elbow and tip are at `q` (m).
 pub(crate) fn skeleton(scene: &Scene, q: [f64; 2]) -> [[f64; 2]; 3] {
-    let (base, [l1, l2]) = (scene.arm.base(), scene.arm.lengths());
+    let (base, lengths) = (scene.arm().base(), scene.arm().lengths());
+    let (l1, l2) = (lengths[0], lengths[1]);
     let elbow = [base.x + l1 * q[0].cos(), base.y + l1 * q[0].sin()];
     let tip = [elbow[0] + l2 * (q[0] + q[1]).cos(), elbow[1] + l2 * (q[0] + q[1]).sin()];
     [[base.x, base.y], elbow, tip]
@@ -19,8 +20,8 @@ pub(crate) fn skeleton(scene: &Scene, q: [f64; 2]) -> [[f64; 2]; 3] {
 pub(crate) fn clearance(scene: &Scene, q: [f64; 2]) -> f64 {
     let [base, elbow, tip] = skeleton(scene, q);
     let links = [(base, elbow), (elbow, tip)];
-    let distances = links.iter().flat_map(|&(a, b)| scene.obstacles.iter().map(move |o| distance(o, a, b)));
-    distances.fold(f64::INFINITY, f64::min) - scene.arm.half_width()
+    let distances = links.iter().flat_map(|&(a, b)| scene.obstacles().iter().map(move |o| distance(o, a, b)));
+    distances.fold(f64::INFINITY, f64::min) - scene.arm().half_width()
 }
 
 /// Position and its first three derivatives of joint `j` at `s` seconds after the piece's start.
@@ -46,7 +47,7 @@ pub(crate) fn fault(scene: &Scene, motion: &Motion, looks: usize) -> Option<Stri
             if clearance <= 0.0 {
                 return Some(format!("clearance {clearance} m in piece {index} at {s} s"));
             }
-            for (j, joint) in scene.arm.joints().iter().enumerate() {
+            for (j, joint) in scene.arm().joints().iter().enumerate() {
                 if let JointLimits::Range { min, max } = joint.limits
                     && !(min - 1e-9..=max + 1e-9).contains(&q[j])
                 {

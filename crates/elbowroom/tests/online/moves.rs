@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use elbowroom::geometry::{Circle, Point, Polygon, Vector};
 use elbowroom::scene::{Obstacle, Scene, Shape};
 
-use crate::judge;
 use crate::worlds::Numbers;
+use crate::{build, judge};
 
 fn shifted(obstacle: &Obstacle, by: Vector) -> Option<Obstacle> {
     let shape = match &obstacle.shape {
@@ -15,7 +15,7 @@ fn shifted(obstacle: &Obstacle, by: Vector) -> Option<Obstacle> {
             Shape::Polygon(Polygon::new(polygon.vertices().iter().map(|&v| v + by).collect()).ok()?)
         }
     };
-    Some(Obstacle { name: obstacle.name.clone(), shape })
+    Some(Obstacle { shape, ..obstacle.clone() })
 }
 
 fn middle(obstacle: &Obstacle) -> Point {
@@ -35,15 +35,15 @@ fn against_a_link(numbers: &mut Numbers, scene: &Scene) -> Obstacle {
     let length = dx.hypot(dy);
     let radius = numbers.within(0.001, 0.05);
     let hair = [0.0, 1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6][numbers.below(7) as usize];
-    let off = (radius + scene.arm.half_width() + hair) / length;
+    let off = (radius + scene.arm().half_width() + hair) / length;
     let center = Point::new(a[0] + along * dx - off * dy, a[1] + along * dy + off * dx);
-    Obstacle { name: None, shape: Shape::Circle(Circle { center, radius }) }
+    build::circle(center.x, center.y, radius)
 }
 
 /// The obstacles of `scene` after one random update.
 pub(crate) fn update(numbers: &mut Numbers, scene: &Scene) -> Vec<Obstacle> {
-    let mut obstacles = scene.obstacles.clone();
-    let reach: f64 = scene.arm.lengths().iter().sum();
+    let mut obstacles = scene.obstacles().to_vec();
+    let reach: f64 = scene.arm().lengths().iter().sum();
     for _ in 0..numbers.below(4) {
         let count = obstacles.len() as u64;
         if count == 0 {
@@ -53,14 +53,14 @@ pub(crate) fn update(numbers: &mut Numbers, scene: &Scene) -> Vec<Obstacle> {
         let index = numbers.below(count) as usize;
         let way = match numbers.below(10) {
             0 => 1e-9,
-            1 => 1e-3 * scene.grid.step(),
-            2..6 => scene.grid.step(),
+            1 => 1e-3 * scene.grid().step(),
+            2..6 => scene.grid().step(),
             _ => numbers.within(0.0, reach),
         };
         let by = Vector::polar(way, numbers.within(0.0, TAU));
         let to = |place: Point| place - middle(&obstacles[index]);
         let by = match numbers.below(12) {
-            0 => to(scene.arm.base()),
+            0 => to(scene.arm().base()),
             1 => to(Point::new(3.0 * reach, 0.0)),
             2 => to(Point::new(numbers.within(-reach, reach), numbers.within(-reach, reach))),
             _ => by,

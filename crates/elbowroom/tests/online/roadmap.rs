@@ -2,23 +2,22 @@
 
 use std::f64::consts::PI;
 
-use elbowroom::arm::{Configuration, JointLimits};
+use elbowroom::arm::JointLimits;
 use elbowroom::free_space::FreeSpace;
-use elbowroom::grid::Grid;
 use elbowroom::online::{NoRoute, Roadmap, Route, Upkeep};
-use elbowroom::path::sweep_is_free;
+use elbowroom::path::straight_move_is_free;
 use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
-use elbowroom::scene::{Place, Scene, Task};
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, SceneProblem, Sight, Task};
 use elbowroom::trajectory::{Motion, Piece, State};
 
-use crate::{judge, moves, worlds};
+use crate::{build, judge, moves, worlds};
 
 /// Where the arm is: any configuration within the limits.
-fn anywhere(numbers: &mut worlds::Numbers, scene: &Scene) -> Configuration<2> {
-    Configuration(std::array::from_fn(|j| match scene.arm.joints()[j].limits {
+fn anywhere(numbers: &mut worlds::Numbers, scene: &Scene) -> [f64; 2] {
+    std::array::from_fn(|j| match scene.arm().joints()[j].limits {
         JointLimits::Continuous => numbers.within(-PI, PI),
         JointLimits::Range { min, max } => numbers.within(min, max),
-    }))
+    })
 }
 
 fn bits(field: &[f64]) -> Vec<u64> {
@@ -26,17 +25,19 @@ fn bits(field: &[f64]) -> Vec<u64> {
 }
 
 /// Every turn is certified in the scene as it is, and the arm that stops at every corner touches nothing.
-fn assert_free(scene: &Scene, q: &Configuration<2>, Route { path, cost }: &Route) {
-    assert_eq!(path.0.first(), Some(q));
+fn assert_free(scene: &Scene, q: &[f64; 2], Route { path, cost }: &Route) {
+    assert_eq!(*path.0[0], *q);
     for pair in path.0.windows(2) {
-        let (there, back) =
-            (sweep_is_free(scene, &pair[0], &pair[1]), sweep_is_free(scene, &pair[1], &pair[0]));
+        let (there, back) = (
+            straight_move_is_free(scene, &pair[0], &pair[1]),
+            straight_move_is_free(scene, &pair[1], &pair[0]),
+        );
         assert!(there || back, "{pair:?} is not free in {scene:#?}");
     }
     // Halved turns bring the tip back to the straight line: the grid's cost is no more than a little below the truth.
-    assert!(path.tip_travel(&scene.arm) >= cost * 0.99 - 1e-9, "{} {cost}", path.tip_travel(&scene.arm));
+    assert!(path.tip_travel(scene.arm()) >= cost * 0.99 - 1e-9, "{} {cost}", path.tip_travel(scene.arm()));
     let turns = path.0.windows(2).enumerate().map(|(i, pair)| {
-        Piece::quintic(100.0 * i as f64, 100.0, &State::rest(&pair[0].0), &State::rest(&pair[1].0))
+        Piece::quintic(100.0 * i as f64, 100.0, &State::rest(&pair[0]), &State::rest(&pair[1]))
     });
     if path.0.len() > 1 {
         let motion = Motion::new(turns.collect()).unwrap();
@@ -60,10 +61,10 @@ struct Tally {
 fn follow(seed: u64, tally: &mut Tally) {
     let Some(mut scene) = worlds::world(seed) else { return };
     if seed.is_multiple_of(40) {
-        let reach: f64 = scene.arm.lengths().iter().sum();
-        scene.grid = Grid::new([-reach, reach], [-reach, reach], reach / 60.0).unwrap();
+        let reach: f64 = scene.arm().lengths().iter().sum();
+        scene = scene.with_grid(build::grid(reach, reach / 60.0));
     }
-    let task = scene.tasks[0].clone();
+    let task = scene.tasks()[0].clone();
     let mut numbers = worlds::Numbers::seeded(seed ^ 0x5a);
     let Ok(kept) = Roadmap::new(scene, &task) else { return };
     let mut kept = match numbers.below(8) {
@@ -75,13 +76,13 @@ fn follow(seed: u64, tally: &mut Tally) {
     for update in 0..8 {
         if update > 0 {
             let obstacles = moves::update(&mut numbers, kept.scene());
-            let updated = kept.move_obstacles(obstacles);
+            let updated = kept.move_obstacles(obstacles).unwrap();
             tally.updates += 1;
             tally.repaired += u32::from(updated.repaired.is_some_and(|nodes| nodes > 0));
             tally.untouched += u32::from(updated.repaired == Some(0));
         }
         let scene = kept.scene().clone();
-        assert!(*kept.space() == FreeSpace::of(&scene));
+        assert!(*kept.space() == FreeSpace::of(scene.two_link().unwrap()));
         let mut fresh = Roadmap::new(scene.clone(), &task).unwrap();
         if numbers.below(3) == 0 {
             q = anywhere(&mut numbers, &scene);
@@ -107,7 +108,8 @@ fn follow(seed: u64, tally: &mut Tally) {
             }
             if let Ok(route) = route {
                 // Along the way, as an arm would.
-                q = route.path.0[numbers.below(route.path.0.len() as u64) as usize];
+                let along = &route.path.0[numbers.below(route.path.0.len() as u64) as usize];
+                q = [along[0], along[1]];
             }
         }
         if numbers.below(2) == 0 {
@@ -120,14 +122,13 @@ fn follow(seed: u64, tally: &mut Tally) {
 fn compare_with_plan(
     scene: &Scene,
     task: &Task,
-    q: &Configuration<2>,
+    q: &[f64; 2],
     route: &Result<Route, NoRoute>,
     tally: &mut Tally,
 ) {
-    let task = Task { start: Place::Configuration(q.0.to_vec()), ..task.clone() };
-    let settings =
-        PlanSettings { planner: Planner::Dstar, objective: Objective::Tip, ..PlanSettings::default() };
-    match plan(scene, &task, &settings, &Unwatched) {
+    let task = Task { start: Place::Configuration((*q).into()), ..task.clone() };
+    let settings = PlanSettings { objective: Objective::Tip, ..PlanSettings::default() };
+    match plan(scene, &task, &Planner::Dstar, &settings, &Unwatched) {
         Ok(found) => {
             let cost = route.as_ref().unwrap().cost;
             assert!((found.path_cost - cost).abs() <= 1e-9 * cost + 1e-12, "{} {cost}", found.path_cost);
@@ -152,4 +153,30 @@ fn what_is_kept_equals_what_is_found_from_scratch() {
         tally.goal_blocked > 20 && tally.not_found > 20 && tally.start > 20 && tally.plans > 50,
         "{tally:?}"
     );
+}
+
+#[test]
+fn a_roadmap_is_for_two_links_among_obstacles_that_stand_still() {
+    let scene = (0..).find_map(|seed| worlds::world(seed).filter(|s| s.obstacles().len() > 1)).unwrap();
+    let task = scene.tasks()[0].clone();
+    let moving = || {
+        let motion = ObstacleMotion::new(Course::Absent, Sight::Always, None).unwrap();
+        let moving = |obstacle: &Obstacle| Obstacle { motion: Some(motion.clone()), ..obstacle.clone() };
+        scene.obstacles().iter().map(moving).collect::<Vec<_>>()
+    };
+    let refused = Roadmap::new(scene.with_obstacles(moving()).unwrap(), &task).err();
+    assert!(matches!(refused, Some(PlanError::Moving { obstacle: 0, .. })), "{refused:?}");
+    let three = build::scene(build::arm(&[0.2, 0.2, 0.2]), Vec::new());
+    let refused = Roadmap::new(three, &task).err();
+    assert!(matches!(refused, Some(PlanError::OtherArm { links: 3, .. })), "{refused:?}");
+
+    let mut roadmap = Roadmap::new(scene.clone(), &task).unwrap();
+    let alike: Vec<Obstacle> =
+        scene.obstacles().iter().map(|o| Obstacle { name: Some("one".to_owned()), ..o.clone() }).collect();
+    let refused = roadmap.move_obstacles(alike);
+    assert_eq!(refused, Err(SceneProblem::ObstacleName { name: "one".to_owned() }));
+    assert_eq!(*roadmap.scene(), scene);
+    // Where they are is what counts, not how they move.
+    assert_eq!(roadmap.move_obstacles(moving()).map(|updated| updated.cells), Ok(0));
+    assert_eq!(*roadmap.scene(), scene);
 }

@@ -2,14 +2,13 @@
 
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::arm::{Joint, JointLimits, MotionLimits, TwoLinkArm};
-use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::grid::Grid;
+use elbowroom::arm::{Joint, JointLimits, MotionLimits};
+use elbowroom::geometry::{Point, Polygon};
 use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use crate::judge;
+use crate::{build, judge};
 
 /// Numbers of one world.
 pub(crate) struct Numbers(ChaCha8Rng);
@@ -32,10 +31,6 @@ impl Numbers {
     }
 }
 
-fn disc(x: f64, y: f64, radius: f64) -> Obstacle {
-    Obstacle { name: None, shape: Shape::Circle(Circle { center: Point::new(x, y), radius }) }
-}
-
 /// A bar from `a` to `b`, `thick` wide.
 pub(crate) fn bar(a: [f64; 2], b: [f64; 2], thick: f64) -> Option<Obstacle> {
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
@@ -47,7 +42,7 @@ pub(crate) fn bar(a: [f64; 2], b: [f64; 2], thick: f64) -> Option<Obstacle> {
         Point::new(b[0] - nx, b[1] - ny),
         Point::new(a[0] - nx, a[1] - ny),
     ];
-    Some(Obstacle { name: None, shape: Shape::Polygon(Polygon::new(corners).ok()?) })
+    Some(Obstacle::still(Shape::Polygon(Polygon::new(corners).ok()?)))
 }
 
 fn star(numbers: &mut Numbers, center: [f64; 2], size: f64) -> Option<Obstacle> {
@@ -60,7 +55,7 @@ fn star(numbers: &mut Numbers, center: [f64; 2], size: f64) -> Option<Obstacle> 
             Point::new(center[0] + radius * angle.cos(), center[1] + radius * angle.sin())
         })
         .collect();
-    Some(Obstacle { name: None, shape: Shape::Polygon(Polygon::new(vertices).ok()?) })
+    Some(Obstacle::still(Shape::Polygon(Polygon::new(vertices).ok()?)))
 }
 
 fn obstacles(numbers: &mut Numbers, reach: f64) -> Vec<Obstacle> {
@@ -73,8 +68,8 @@ fn obstacles(numbers: &mut Numbers, reach: f64) -> Vec<Obstacle> {
         let center = at(numbers, 0.15);
         match numbers.below(5) {
             // A post as thin as 0.1 mm across.
-            0 => found.push(disc(center[0], center[1], 10f64.powf(numbers.within(-4.3, -2.0)))),
-            1 => found.push(disc(center[0], center[1], reach * numbers.within(0.02, 0.15))),
+            0 => found.push(build::circle(center[0], center[1], 10f64.powf(numbers.within(-4.3, -2.0)))),
+            1 => found.push(build::circle(center[0], center[1], reach * numbers.within(0.02, 0.15))),
             2 => {
                 let to = at(numbers, 0.15);
                 let thick = 10f64.powf(numbers.within(-4.0, -1.5));
@@ -135,21 +130,21 @@ pub(crate) fn world(seed: u64) -> Option<Scene> {
     };
     let joints =
         [limits(&mut numbers, true), limits(&mut numbers, false)].map(|limits| Joint { limits, motion });
-    let arm = TwoLinkArm::new(Point::new(0.0, 0.0), [l1, l2], half_width, joints).ok()?;
+    let arm = build::arm_of(&[l1, l2], half_width, &joints);
     let reach = l1 + l2;
     let side = numbers.within(16.0, 50.0);
-    let grid = Grid::new([-reach, reach], [-reach, reach], 2.0 * reach / side).ok()?;
+    let grid = build::grid(reach, 2.0 * reach / side);
     let obstacles = obstacles(&mut numbers, reach);
-    let mut scene = Scene { arm, grid, obstacles, tasks: Vec::new() };
+    let scene = Scene::new(arm, grid, obstacles, Vec::new()).ok()?;
     let mut ends = Vec::new();
     for _ in 0..200 {
-        let q: [f64; 2] = std::array::from_fn(|j| match scene.arm.joints()[j].limits {
+        let q: [f64; 2] = std::array::from_fn(|j| match scene.arm().joints()[j].limits {
             JointLimits::Continuous => numbers.within(-PI, PI),
             JointLimits::Range { min, max } => numbers.within(min, max),
         });
         if judge::clearance(&scene, q) > 1e-6 {
             ends.push(if numbers.flip() {
-                Place::Configuration(q.to_vec())
+                Place::Configuration(q.into())
             } else {
                 let [_, _, tip] = judge::skeleton(&scene, q);
                 Place::Tip(Point::new(tip[0], tip[1]))
@@ -166,6 +161,5 @@ pub(crate) fn world(seed: u64) -> Option<Scene> {
         _ => TaskPosture::Any,
     };
     let [start, goal] = <[Place; 2]>::try_from(ends).ok()?;
-    scene.tasks.push(Task { name: "task".to_owned(), start, goal, posture });
-    Some(scene)
+    scene.with_tasks(vec![Task { name: "task".to_owned(), start, goal, posture }]).ok()
 }

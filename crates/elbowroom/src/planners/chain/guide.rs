@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::arm::{Arm, JointLimits, PlanarArm};
+use crate::arm::{Arm, JointLimits};
 use crate::geometry::{Point, Segment};
 use crate::grid::Grid;
 use crate::planners::{Monitor, PlanError};
@@ -64,11 +64,11 @@ impl Guide {
     /// # Errors
     /// [`PlanError::Stopped`], [`PlanError::NotFound`] where the grid has no free cell near a goal
     pub(in crate::planners) fn new(
-        scene: &Scene<PlanarArm>,
+        scene: &Scene,
         goals: &[Point],
         monitor: &impl Monitor,
     ) -> Result<Self, PlanError> {
-        let cells = TipCells { grid: scene.grid, weight: weights(scene, monitor)? };
+        let cells = TipCells { grid: *scene.grid(), weight: weights(scene, monitor)? };
         let mut guide = Self { field: Dstar::new(cells.len()), cells };
         guide.aim(goals)?;
         Ok(guide)
@@ -163,23 +163,23 @@ impl Guide {
 }
 
 /// What a metre costs in each cell.
-fn weights(scene: &Scene<PlanarArm>, monitor: &impl Monitor) -> Result<Vec<f64>, PlanError> {
-    let [nearest, farthest] = reach(&scene.arm);
-    let width = scene.arm.half_width();
-    let shy = SHY * width.max(scene.grid.step());
-    let mut weights = Vec::with_capacity(scene.grid.len());
-    for cell in 0..scene.grid.len() {
+fn weights(scene: &Scene, monitor: &impl Monitor) -> Result<Vec<f64>, PlanError> {
+    let [nearest, farthest] = reach(scene.arm());
+    let width = scene.arm().half_width();
+    let shy = SHY * width.max(scene.grid().step());
+    let mut weights = Vec::with_capacity(scene.grid().len());
+    for cell in 0..scene.grid().len() {
         if cell % CELLS_PER_LOOK == 0 && !monitor.keep_going() {
             return Err(PlanError::Stopped);
         }
-        let tip = scene.grid.point(cell);
-        let from_base = tip.distance(scene.arm.base());
+        let tip = scene.grid().point(cell);
+        let from_base = tip.distance(scene.arm().base());
         if !(nearest..=farthest).contains(&from_base) {
             weights.push(f64::INFINITY);
             continue;
         }
         let point = Segment::new(tip, tip);
-        let distances = scene.obstacles.iter().map(|obstacle| obstacle.distance_to_segment(point));
+        let distances = scene.obstacles().iter().map(|obstacle| obstacle.distance_to_segment(point));
         let clearance = distances.fold(f64::INFINITY, f64::min) - width;
         weights.push(if clearance <= 0.0 {
             f64::INFINITY
@@ -191,7 +191,7 @@ fn weights(scene: &Scene<PlanarArm>, monitor: &impl Monitor) -> Result<Vec<f64>,
 }
 
 /// Least and greatest distance from base to tip that the links allow, and between two links the stops of the joint (m).
-fn reach(arm: &PlanarArm) -> [f64; 2] {
+fn reach(arm: &Arm) -> [f64; 2] {
     let [nearest, farthest] = arm.reach();
     let (&[first, second], [_, joint]) = (arm.lengths(), arm.joints()) else { return [nearest, farthest] };
     let JointLimits::Range { min, max } = joint.limits else { return [nearest, farthest] };

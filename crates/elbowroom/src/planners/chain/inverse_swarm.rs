@@ -4,8 +4,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 use thiserror::Error;
 
-use crate::arm::{Arm, Joint, JointLimits, PlanarArm};
-use crate::geometry::{Point, Vector, angle_difference};
+use crate::arm::{Arm, Configuration, Joint, JointLimits};
+use crate::geometry::{Point, Vector};
 use crate::swarm::{Bounds, BoundsError, Fitness, Neighbourhood, Swarm, SwarmError, SwarmSettings, Value};
 
 /// Iterations without a hundredth of gain after which a swarm has come to rest and another one begins.
@@ -54,8 +54,8 @@ pub struct Previous<'a> {
 /// What [`inverse_by_swarm`] found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SwarmInverse {
-    /// The best configuration (rad).
-    pub q: Vec<f64>,
+    /// The best configuration.
+    pub q: Configuration,
     /// How far its tip is from where it shall be (m).
     pub error: f64,
     /// By how much it violates the constraints; 0 when it does not.
@@ -108,7 +108,7 @@ pub enum InverseSwarmError {
 /// Rokbani and Alimi, *Inverse kinematics using particle swarm optimization, a statistical analysis*, Procedia Engineering
 /// 64 (2013).
 pub fn inverse_by_swarm(
-    arm: &PlanarArm,
+    arm: &Arm,
     tip: Point,
     previous: Option<Previous<'_>>,
     settings: &InverseSwarmSettings,
@@ -133,7 +133,7 @@ pub fn inverse_by_swarm(
         v_max: Some(0.5),
         iterations: settings.iterations.max(1),
     };
-    let error = |q: &[f64]| arm.tip_at(q).distance(tip);
+    let error = |q: &[f64]| arm.tip(q).distance(tip);
     let mut fitness_of = |q: &[f64]| {
         let off = error(q);
         let away = previous.map_or(0.0, |previous| previous.weight * squared_distance(arm, previous.q, q));
@@ -144,11 +144,11 @@ pub fn inverse_by_swarm(
     let first: Vec<Vec<f64>> = previous.iter().map(|previous| previous.q.to_vec()).collect();
     let mut swarm = Swarm::starting_at(&bounds, &swarm_settings, &first, seeds.next_u64())?;
     let mut frame: Option<Frame> = None;
-    let mut best: Option<(Vec<f64>, Fitness)> = None;
+    let mut best: Option<(Configuration, Fitness)> = None;
     let mut convergence = Vec::with_capacity(settings.iterations.min(MOST_RESERVED));
     let (mut gained_at, mut gained, mut before) = (0, Fitness::WORST, Fitness::WORST);
     for iteration in 0..settings.iterations {
-        let place = |x: &[f64]| frame.as_ref().map_or_else(|| x.to_vec(), |frame| frame.place(x, &allowed));
+        let place = |x: &[f64]| frame.as_ref().map_or_else(|| x.into(), |frame| frame.place(x, &allowed));
         swarm.step(&mut |x: &[f64]| fitness_of(&place(x)));
         let (x, fitness) = swarm.best();
         if best.as_ref().is_none_or(|(_, known)| fitness.is_better(*known)) {
@@ -177,7 +177,7 @@ pub fn inverse_by_swarm(
             (gained_at, gained) = (iteration, Fitness::WORST);
         }
     }
-    let (q, fitness) = best.unwrap_or_else(|| (swarm.best().0.to_vec(), swarm.best().1));
+    let (q, fitness) = best.unwrap_or_else(|| (swarm.best().0.into(), swarm.best().1));
     Ok(SwarmInverse {
         error: error(&q),
         q,
@@ -191,7 +191,7 @@ pub fn inverse_by_swarm(
 /// the others as the tip follows it more. With the links in line, where the tip moves with the square of the other angles, a
 /// box in the joints' own axes would hold next to nothing that is better.
 struct Frame {
-    origin: Vec<f64>,
+    origin: Configuration,
     /// The way, of length 1, that moves the tip most.
     stiff: Vec<f64>,
     /// Half the width along it, and along the others (rad).
@@ -200,7 +200,7 @@ struct Frame {
 
 impl Frame {
     /// Around `q`, whose tip errs by `error` (m).
-    fn around(arm: &PlanarArm, q: &[f64], error: f64) -> Self {
+    fn around(arm: &Arm, q: &[f64], error: f64) -> Self {
         let columns = arm.jacobian(q);
         let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
         for column in &columns {
@@ -219,11 +219,11 @@ impl Frame {
         } else {
             (vec![0.0; q.len()], soft)
         };
-        Self { origin: q.to_vec(), stiff, widths: [narrow, soft] }
+        Self { origin: q.into(), stiff, widths: [narrow, soft] }
     }
 
     /// The configuration at `x`, each coordinate from -1 to 1, put between the `allowed` ends.
-    fn place(&self, x: &[f64], allowed: &[[f64; 2]]) -> Vec<f64> {
+    fn place(&self, x: &[f64], allowed: &[[f64; 2]]) -> Configuration {
         let [narrow, soft] = self.widths;
         let along: f64 = x.iter().zip(&self.stiff).map(|(x, stiff)| x * stiff).sum();
         let at = |j: usize| self.origin[j] + soft * x[j] - (soft - narrow) * along * self.stiff[j];
@@ -243,7 +243,7 @@ fn is_gain(fitness: Fitness, known: Fitness, share: f64) -> bool {
 
 /// Where each joint may be looked for: between the stops, and around `previous`; a continuous one without that up to `widest`
 /// from 0 (rad).
-fn ranges(arm: &PlanarArm, previous: Option<Previous<'_>>, widest: f64) -> Vec<[f64; 2]> {
+fn ranges(arm: &Arm, previous: Option<Previous<'_>>, widest: f64) -> Vec<[f64; 2]> {
     let range = |(j, joint): (usize, &Joint)| {
         let [min, max] = match joint.limits {
             JointLimits::Continuous if previous.is_none() => [-widest, widest],
@@ -258,13 +258,7 @@ fn ranges(arm: &PlanarArm, previous: Option<Previous<'_>>, widest: f64) -> Vec<[
     arm.joints().iter().enumerate().map(range).collect()
 }
 
-fn squared_distance(arm: &PlanarArm, from: &[f64], to: &[f64]) -> f64 {
+fn squared_distance(arm: &Arm, from: &[f64], to: &[f64]) -> f64 {
     let joints = arm.joints().iter().zip(from.iter().zip(to));
-    joints
-        .map(|(joint, (&from, &to))| match joint.limits {
-            JointLimits::Continuous => angle_difference(from, to),
-            JointLimits::Range { .. } => to - from,
-        })
-        .map(|turn| turn * turn)
-        .sum()
+    joints.map(|(joint, (&from, &to))| joint.limits.difference(from, to)).map(|turn| turn * turn).sum()
 }

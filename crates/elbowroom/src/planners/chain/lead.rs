@@ -6,11 +6,12 @@ use rand_core::{Rng, SeedableRng};
 use super::super::contacts::Contacts;
 use super::inverse_swarm::{InverseSwarmSettings, Previous, inverse_by_swarm};
 use super::ledger::{Halt, Ledger};
-use crate::arm::{Arm, PlanarArm, Posture, joint_distance};
+use crate::arm::{Configuration, Posture, joint_distance};
 use crate::geometry::Point;
-use crate::path::turn_is_free;
+use crate::path::straight_move_is_free;
 use crate::planners::Monitor;
-use crate::planners::ends::posture;
+use crate::planners::endpoints::posture;
+use crate::random::{below, unit};
 use crate::scene::Scene;
 
 /// Clearance that the swarm wants, as a share of the reach; the certificate asks for less.
@@ -30,7 +31,7 @@ const SELF_STEPS: usize = 200;
 
 /// Leads an arm, and keeps account.
 pub(in crate::planners) struct Leader<'a, M> {
-    pub(in crate::planners) scene: &'a Scene<PlanarArm>,
+    pub(in crate::planners) scene: &'a Scene,
     pub(in crate::planners) ledger: Ledger<'a, M>,
     contacts: Contacts<'a>,
     rng: ChaCha8Rng,
@@ -39,15 +40,15 @@ pub(in crate::planners) struct Leader<'a, M> {
 }
 
 impl<'a, M: Monitor> Leader<'a, M> {
-    pub(in crate::planners) fn new(scene: &'a Scene<PlanarArm>, ledger: Ledger<'a, M>, seed: u64) -> Self {
-        let [_, reach] = scene.arm.reach();
+    pub(in crate::planners) fn new(scene: &'a Scene, ledger: Ledger<'a, M>, seed: u64) -> Self {
+        let [_, reach] = scene.arm().reach();
         let contacts = Contacts::new(scene, MARGIN * reach);
         Self { scene, ledger, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
     }
 
     /// Where the tip is at `q`.
     pub(in crate::planners) fn tip(&self, q: &[f64]) -> Point {
-        self.scene.arm.tip_at(q)
+        self.scene.arm().tip(q)
     }
 
     /// Whether the straight turn is certified, between the stops, and keeps the posture that has to be kept.
@@ -55,7 +56,7 @@ impl<'a, M: Monitor> Leader<'a, M> {
         self.ledger.spend(1)?;
         let keeps = self.kept.is_none_or(|kept| posture(to).is_none_or(|posture| posture == kept))
             && (self.kept.is_none() || (to[1] - from[1]).abs() < std::f64::consts::PI);
-        Ok(keeps && self.scene.arm.allows(to) && turn_is_free(self.scene, from, to))
+        Ok(keeps && self.scene.arm().within_limits(to) && straight_move_is_free(self.scene, from, to))
     }
 
     /// The nearest configuration with its tip at `tip` that damped least squares reach from `near`, if the turn from
@@ -65,9 +66,9 @@ impl<'a, M: Monitor> Leader<'a, M> {
         from: &[f64],
         near: &[f64],
         tip: Point,
-    ) -> Result<Option<Vec<f64>>, Halt> {
+    ) -> Result<Option<Configuration>, Halt> {
         self.ledger.spend(1)?;
-        match self.scene.arm.inverse_near(tip, near) {
+        match self.scene.arm().inverse_near(tip, near) {
             Some(q) if self.joins(from, &q)? => Ok(Some(q)),
             _ => Ok(None),
         }
@@ -81,8 +82,8 @@ impl<'a, M: Monitor> Leader<'a, M> {
         tip: Point,
         radius: f64,
         [particles, iterations]: [usize; 2],
-    ) -> Result<Option<Vec<f64>>, Halt> {
-        let [_, reach] = self.scene.arm.reach();
+    ) -> Result<Option<Configuration>, Halt> {
+        let [_, reach] = self.scene.arm().reach();
         let most = particles * iterations;
         self.ledger.spend(most)?;
         let settings = InverseSwarmSettings { particles, iterations, tolerance: NEAR_ENOUGH * reach };
@@ -90,7 +91,7 @@ impl<'a, M: Monitor> Leader<'a, M> {
         let seed = self.rng.next_u64();
         let contacts = &self.contacts;
         let mut in_contact = |q: &[f64]| contacts.violation(q);
-        let found = inverse_by_swarm(&self.scene.arm, tip, Some(previous), &settings, seed, &mut in_contact);
+        let found = inverse_by_swarm(self.scene.arm(), tip, Some(previous), &settings, seed, &mut in_contact);
         let Ok(found) = found else {
             self.ledger.give_back(most);
             return Ok(None);
@@ -100,9 +101,9 @@ impl<'a, M: Monitor> Leader<'a, M> {
     }
 
     /// `q` with every joint moved by up to `most` (rad), evenly drawn, and put between its stops.
-    pub(in crate::planners) fn shaken(&mut self, q: &[f64], most: f64) -> Vec<f64> {
+    pub(in crate::planners) fn shaken(&mut self, q: &[f64], most: f64) -> Configuration {
         let moved = q.iter().map(|angle| angle + most * (2.0 * unit(&mut self.rng) - 1.0)).collect();
-        self.scene.arm.within_stops(moved)
+        self.scene.arm().clamped(moved)
     }
 
     /// A number in [0, 1).
@@ -112,7 +113,7 @@ impl<'a, M: Monitor> Leader<'a, M> {
 
     /// A whole number below `count`, which is not 0.
     pub(in crate::planners) fn below(&mut self, count: usize) -> usize {
-        ((unit(&mut self.rng) * count as f64) as usize).min(count - 1)
+        below(&mut self.rng, count)
     }
 
     /// Certified turns from `from`, left out, to `to`: straight, or else with the tip on its straight way between both.
@@ -120,24 +121,24 @@ impl<'a, M: Monitor> Leader<'a, M> {
         &mut self,
         from: &[f64],
         to: &[f64],
-    ) -> Result<Option<Vec<Vec<f64>>>, Halt> {
+    ) -> Result<Option<Vec<Configuration>>, Halt> {
         if self.joins(from, to)? {
-            return Ok(Some(vec![to.to_vec()]));
+            return Ok(Some(vec![to.into()]));
         }
         let (start, end) = (self.tip(from), self.tip(to));
-        let mut places: Vec<Vec<f64>> = Vec::new();
-        let mut at = from.to_vec();
+        let mut places: Vec<Configuration> = Vec::new();
+        let mut at = Configuration::from(from);
         for _ in 0..SELF_STEPS {
             let widest = at.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
             if widest <= SELF_STEP {
                 if self.joins(&at, to)? {
-                    places.push(to.to_vec());
+                    places.push(to.into());
                     return Ok(Some(places));
                 }
                 return Ok(None);
             }
             let share = SELF_STEP / widest;
-            let near: Vec<f64> = at.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect();
+            let near = at.lerp(to, share);
             let tip = self.tip(&at).lerp(end, share);
             // Back onto the straight way, should the tip be off it.
             let tip = if start == end { end } else { tip };
@@ -150,8 +151,4 @@ impl<'a, M: Monitor> Leader<'a, M> {
         }
         Ok(None)
     }
-}
-
-fn unit(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }

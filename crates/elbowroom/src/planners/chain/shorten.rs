@@ -2,7 +2,7 @@
 
 use super::lead::Leader;
 use super::ledger::Halt;
-use crate::arm::{PlanarArm, joint_distance};
+use crate::arm::{Arm, Configuration, joint_distance};
 use crate::path::{JointPath, simplify};
 use crate::planners::Monitor;
 use crate::planners::limits::motion_limits;
@@ -22,25 +22,20 @@ const JOINT_SHARE: f64 = 0.02;
 const TOLERANCE: f64 = 0.1;
 
 /// What `path` promises to cost in terms of `objective`.
-pub(in crate::planners) fn price(
-    arm: &PlanarArm,
-    objective: Objective,
-    path: &JointPath<Vec<f64>>,
-    grid_step: f64,
-) -> f64 {
+pub(in crate::planners) fn price(arm: &Arm, objective: Objective, path: &JointPath, grid_step: f64) -> f64 {
     match objective {
         Objective::Tip => path.tip_travel(arm),
         Objective::Joint => path.length(),
         Objective::Time => {
             let kept = simplify(arm, &path.0, TOLERANCE * grid_step);
-            let places: Vec<Vec<f64>> = kept.into_iter().map(|i| path.0[i].clone()).collect();
+            let places: Vec<Configuration> = kept.into_iter().map(|i| path.0[i].clone()).collect();
             fastest_durations(&vias_at(&places), &motion_limits(arm).0).iter().sum()
         }
     }
 }
 
 /// What a stretch of a path weighs when another is tried in its place.
-fn weight(arm: &PlanarArm, objective: Objective, places: &[Vec<f64>]) -> f64 {
+fn weight(arm: &Arm, objective: Objective, places: &[Configuration]) -> f64 {
     let joint: f64 = places.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum();
     match objective {
         Objective::Tip => JointPath(places.to_vec()).tip_travel(arm) + JOINT_SHARE * arm.reach()[1] * joint,
@@ -54,10 +49,10 @@ fn weight(arm: &PlanarArm, objective: Objective, places: &[Vec<f64>]) -> f64 {
 /// [`Halt::Failed`]
 pub(in crate::planners) fn shortened<M: Monitor>(
     leader: &mut Leader<'_, M>,
-    mut path: Vec<Vec<f64>>,
+    mut path: Vec<Configuration>,
     objective: Objective,
-) -> Result<JointPath<Vec<f64>>, Halt> {
-    let arm = &leader.scene.arm;
+) -> Result<JointPath, Halt> {
+    let arm = leader.scene.arm();
     let mut idle = 0;
     for _ in 0..TRIES {
         if path.len() < 2 || idle == PATIENCE {
@@ -91,14 +86,13 @@ pub(in crate::planners) fn shortened<M: Monitor>(
 }
 
 /// The place at `share` of the way along `path`, and the index of the one it lies after.
-fn place(path: &[Vec<f64>], share: f64) -> (usize, Vec<f64>) {
+fn place(path: &[Configuration], share: f64) -> (usize, Configuration) {
     let lengths: Vec<f64> = path.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).collect();
     let mut left = share * lengths.iter().sum::<f64>();
     for (i, length) in lengths.iter().enumerate() {
         if left < *length {
             let fraction = left / length;
-            let between = path[i].iter().zip(&path[i + 1]).map(|(a, b)| a + (b - a) * fraction).collect();
-            return (i, between);
+            return (i, path[i].lerp(&path[i + 1], fraction));
         }
         left -= length;
     }

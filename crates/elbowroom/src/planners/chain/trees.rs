@@ -6,10 +6,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 use super::guide::Guide;
 use super::lead::Leader;
 use super::ledger::Halt;
-use crate::arm::{Arm, JointLimits, PlanarArm, joint_distance};
-use crate::geometry::{Point, angle_difference};
+use crate::arm::{Arm, Configuration, lerp};
+use crate::geometry::Point;
 use crate::planners::Monitor;
-use crate::planners::ends::{Ends, nearest_turn};
+use crate::planners::endpoints::Endpoints;
 
 /// How far the tip is led in one step at first, as a share of the reach; where that fails, half as far, and so on.
 const STRIDE: f64 = 0.08;
@@ -45,7 +45,7 @@ const JITTER: f64 = 0.1;
 const EXPLORE_EVERY: usize = 3;
 
 struct Node {
-    q: Vec<f64>,
+    q: Configuration,
     parent: Option<usize>,
     cell: usize,
     tried: usize,
@@ -61,7 +61,7 @@ struct Tree {
 
 /// The search; the guides keep what they learn from one to the next.
 pub(in crate::planners) struct Trees<'a> {
-    ends: &'a Ends,
+    ends: &'a Endpoints,
     /// Where the tip shall be at the goal and at the start, where that is all that is asked: what each tree grows towards.
     tips: [Option<Point>; 2],
     guides: [Guide; 2],
@@ -71,7 +71,7 @@ impl<'a> Trees<'a> {
     /// `to_goals` leads to the goals' tips, `to_starts` to the starts'; `tips` are that of the goal and that of the start,
     /// where any configuration with its tip there will do.
     pub(in crate::planners) fn new(
-        ends: &'a Ends,
+        ends: &'a Endpoints,
         tips: [Option<Point>; 2],
         to_goals: Guide,
         to_starts: Guide,
@@ -86,7 +86,7 @@ impl<'a> Trees<'a> {
     pub(in crate::planners) fn path<M: Monitor>(
         &self,
         leader: &mut Leader<'_, M>,
-    ) -> Result<Vec<Vec<f64>>, Halt> {
+    ) -> Result<Vec<Configuration>, Halt> {
         let [mut from_starts, mut from_goals] = [0, 1].map(|side| Tree {
             nodes: Vec::new(),
             by_cell: BTreeMap::new(),
@@ -129,12 +129,12 @@ impl<'a> Trees<'a> {
 }
 
 /// `to_meeting`, and from there back along `from_goal`, counted on by the whole turns between both.
-fn joined(mut to_meeting: Vec<Vec<f64>>, mut from_goal: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+fn joined(mut to_meeting: Vec<Configuration>, mut from_goal: Vec<Configuration>) -> Vec<Configuration> {
     if let (Some(here), Some(there)) = (to_meeting.last(), from_goal.last()) {
         let whole = |(a, b): (&f64, &f64)| ((a - b) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
-        let turns: Vec<f64> = here.iter().zip(there).map(whole).collect();
+        let turns: Vec<f64> = here.iter().zip(there.iter()).map(whole).collect();
         from_goal.pop();
-        let turned = |q: Vec<f64>| q.iter().zip(&turns).map(|(angle, turn)| angle + turn).collect();
+        let turned = |q: Configuration| q.iter().zip(&turns).map(|(angle, turn)| angle + turn).collect();
         to_meeting.extend(from_goal.into_iter().rev().map(turned));
     }
     to_meeting
@@ -144,13 +144,13 @@ impl Tree {
     fn insert<M: Monitor>(
         &mut self,
         leader: &mut Leader<'_, M>,
-        q: Vec<f64>,
+        q: Configuration,
         parent: Option<usize>,
     ) -> Result<Option<usize>, Halt> {
         let Some(cell) = self.guide.cell(leader.tip(&q)) else { return Ok(None) };
-        let arm = &leader.scene.arm;
+        let arm = leader.scene.arm();
         let there = self.by_cell.entry(cell).or_default();
-        if there.iter().any(|&other| distance(arm, &self.nodes[other].q, &q) < DIFFERENT) {
+        if there.iter().any(|&other| arm.distance(&self.nodes[other].q, &q) < DIFFERENT) {
             return Ok(None);
         }
         let node = self.nodes.len();
@@ -163,7 +163,7 @@ impl Tree {
     fn push<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, node: usize) -> Result<(), Halt> {
         let Node { cell, tried, .. } = self.nodes[node];
         self.guide.repair(cell, leader.ledger.monitor)?;
-        let penalty = TRIED * STRIDE * leader.scene.arm.reach()[1] * tried as f64;
+        let penalty = TRIED * STRIDE * leader.scene.arm().reach()[1] * tried as f64;
         let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * leader.unit());
         // Never negative, so that its bits sort as it does.
         self.queue.push(Reverse((key.to_bits(), node)));
@@ -179,8 +179,8 @@ impl Tree {
             (node.q.clone(), node.cell, node.tried)
         };
         self.guide.repair(cell, leader.ledger.monitor)?;
-        let reach = leader.scene.arm.reach()[1];
-        let mut steps = ((STRIDE * reach / leader.scene.grid.step()).round() as usize).clamp(1, 64);
+        let reach = leader.scene.arm().reach()[1];
+        let mut steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
         // After the first try, from elsewhere on the self-motion.
         let near = if tried == 1 { from.clone() } else { leader.shaken(&from, SHAKE) };
         let mut found = None;
@@ -218,26 +218,26 @@ impl Tree {
                 None => Ok(None),
             };
         }
-        let middle = vec![0.0; leader.scene.arm.joints().len()];
+        let middle = vec![0.0; leader.scene.arm().links()];
         let anywhere = leader.shaken(&middle, std::f64::consts::PI);
-        let Some((node, target)) = self.nearest(&leader.scene.arm, &anywhere) else { return Ok(None) };
+        let Some((node, target)) = self.nearest(leader.scene.arm(), &anywhere) else { return Ok(None) };
         let to = step(&self.nodes[node].q, &target);
         let from = self.nodes[node].q.clone();
         if leader.joins(&from, &to)? { self.insert(leader, to, Some(node)) } else { Ok(None) }
     }
 
     /// The configuration nearest to `q`, and `q` counted on by whole turns to where it is nearest to that.
-    fn nearest(&self, arm: &PlanarArm, q: &[f64]) -> Option<(usize, Vec<f64>)> {
+    fn nearest(&self, arm: &Arm, q: &[f64]) -> Option<(usize, Configuration)> {
         let by_distance = |a: &usize, b: &usize| {
-            distance(arm, &self.nodes[*a].q, q).total_cmp(&distance(arm, &self.nodes[*b].q, q))
+            arm.distance(&self.nodes[*a].q, q).total_cmp(&arm.distance(&self.nodes[*b].q, q))
         };
         let node = (0..self.nodes.len()).min_by(by_distance)?;
-        Some((node, nearest_turn(arm, &self.nodes[node].q, q)))
+        Some((node, arm.nearest_turn(&self.nodes[node].q, q)))
     }
 
     /// Goes from the nearest configuration towards `q`, step by step; the one that is `q`, if it gets there.
     fn connect<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, q: &[f64]) -> Result<Option<usize>, Halt> {
-        let Some((mut node, target)) = self.nearest(&leader.scene.arm, q) else { return Ok(None) };
+        let Some((mut node, target)) = self.nearest(leader.scene.arm(), q) else { return Ok(None) };
         loop {
             let from = self.nodes[node].q.clone();
             let to = step(&from, &target);
@@ -264,7 +264,7 @@ impl Tree {
         tip: Point,
     ) -> Result<Option<usize>, Halt> {
         let (from, cell) = (self.nodes[node].q.clone(), self.nodes[node].cell);
-        let far = leader.tip(&from).distance(tip) > NEAR * STRIDE * leader.scene.arm.reach()[1];
+        let far = leader.tip(&from).distance(tip) > NEAR * STRIDE * leader.scene.arm().reach()[1];
         if far {
             return Ok(None);
         }
@@ -274,35 +274,19 @@ impl Tree {
     }
 
     /// The configurations from the root to `node`.
-    fn trace(&self, node: usize) -> Vec<Vec<f64>> {
+    fn trace(&self, node: usize) -> Vec<Configuration> {
         let parents = std::iter::successors(Some(node), |&node| self.nodes[node].parent);
-        let mut path: Vec<Vec<f64>> = parents.map(|node| self.nodes[node].q.clone()).collect();
+        let mut path: Vec<Configuration> = parents.map(|node| self.nodes[node].q.clone()).collect();
         path.reverse();
         path
     }
 }
 
 /// From `from` towards `to`, by one step.
-fn step(from: &[f64], to: &[f64]) -> Vec<f64> {
+fn step(from: &[f64], to: &[f64]) -> Configuration {
     let widest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
     if widest <= TURN {
-        return to.to_vec();
+        return to.into();
     }
-    from.iter().zip(to).map(|(a, b)| a + (b - a) * (TURN / widest)).collect()
-}
-
-/// Distance between configurations (rad), continuous joints the short way round.
-fn distance(arm: &PlanarArm, from: &[f64], to: &[f64]) -> f64 {
-    if arm.joints().iter().all(|joint| joint.limits != JointLimits::Continuous) {
-        return joint_distance(from, to);
-    }
-    let joints = arm.joints().iter().zip(from.iter().zip(to));
-    let squares: f64 = joints
-        .map(|(joint, (&from, &to))| match joint.limits {
-            JointLimits::Continuous => angle_difference(from, to),
-            JointLimits::Range { .. } => to - from,
-        })
-        .map(|turn| turn * turn)
-        .sum();
-    squares.sqrt()
+    lerp(from, to, TURN / widest)
 }

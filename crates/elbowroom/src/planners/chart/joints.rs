@@ -2,10 +2,10 @@ use std::f64::consts::{PI, TAU};
 
 use super::sew::{Sewn, Stretch, sew};
 use super::slabs::{Cutter, Walls};
-use crate::arm::{Configuration, JointLimits};
+use crate::arm::JointLimits;
 use crate::free_space::Slices;
 use crate::geometry::{Point, wrap_angle};
-use crate::scene::Scene;
+use crate::scene::TwoLinkScene;
 use crate::surface::SurfacePlace;
 
 /// How wide the slabs are that are begun with (rad).
@@ -19,15 +19,19 @@ pub(crate) struct JointChart {
 
 /// Where the second joint may be (rad) for each of `starts`: within its stops and, where the posture is to be kept,
 /// between full stretch and fold.
-pub(crate) fn sheet_ranges(scene: &Scene, starts: &[Configuration<2>], may_flip: bool) -> Vec<[f64; 2]> {
+pub(crate) fn sheet_ranges(
+    scene: TwoLinkScene<'_>,
+    starts: &[[f64; 2]],
+    keep_posture: bool,
+) -> Vec<[f64; 2]> {
     let [low, high] = second_range(scene);
-    if may_flip {
+    if !keep_posture {
         return vec![[low, high]];
     }
     let mut ranges: Vec<[f64; 2]> = Vec::new();
     for start in starts {
-        let round = scene.arm.joints()[1].limits == JointLimits::Continuous;
-        let angle = if round { wrap_angle(start.0[1]) } else { start.0[1] };
+        let round = scene.arm().joints()[1].limits == JointLimits::Continuous;
+        let angle = if round { wrap_angle(start[1]) } else { start[1] };
         let half_turn = (angle / PI).floor();
         let sheets = if angle == half_turn * PI { vec![half_turn - 1.0, half_turn] } else { vec![half_turn] };
         for sheet in sheets {
@@ -40,8 +44,8 @@ pub(crate) fn sheet_ranges(scene: &Scene, starts: &[Configuration<2>], may_flip:
     ranges
 }
 
-fn second_range(scene: &Scene) -> [f64; 2] {
-    match scene.arm.joints()[1].limits {
+fn second_range(scene: TwoLinkScene<'_>) -> [f64; 2] {
+    match scene.arm().joints()[1].limits {
         JointLimits::Continuous => [-PI, PI],
         JointLimits::Range { min, max } => [min, max],
     }
@@ -51,7 +55,7 @@ impl JointChart {
     /// The chart of `scene` with links that stay `margin` (m) clear and the second joint within `range` (rad); `None`
     /// where `keep_going` said no, or there are more cells than can be numbered.
     pub(crate) fn new(
-        scene: &Scene,
+        scene: TwoLinkScene<'_>,
         margin: f64,
         range: [f64; 2],
         walls: Walls,
@@ -61,8 +65,8 @@ impl JointChart {
         let forbidden = |x: f64| slices.second_joint(x, range);
         let cutter = Cutter { forbidden: &forbidden, walls, range, widest: WIDEST };
         let rounds = [
-            scene.arm.joints()[0].limits == JointLimits::Continuous,
-            scene.arm.joints()[1].limits == JointLimits::Continuous && range == [-PI, PI],
+            scene.arm().joints()[0].limits == JointLimits::Continuous,
+            scene.arm().joints()[1].limits == JointLimits::Continuous && range == [-PI, PI],
         ];
         let mut stretches = Vec::new();
         for (ends, round) in open_stretches(scene, &slices, walls) {
@@ -75,18 +79,18 @@ impl JointChart {
     }
 
     /// Where `q` is on the surface, if it is in the open.
-    pub(crate) fn place(&self, q: &Configuration<2>) -> Option<SurfacePlace> {
-        let y = if self.rounds[1] { wrap_angle(q.0[1]) } else { q.0[1] };
+    pub(crate) fn place(&self, q: &[f64; 2]) -> Option<SurfacePlace> {
+        let y = if self.rounds[1] { wrap_angle(q[1]) } else { q[1] };
         let turns = if self.rounds[0] { -1..=1 } else { 0..=0 };
-        let first = if self.rounds[0] { wrap_angle(q.0[0]) } else { q.0[0] };
+        let first = if self.rounds[0] { wrap_angle(q[0]) } else { q[0] };
         let mut turned = turns.map(|turn| Point::new(first + TAU * f64::from(turn), y));
         turned.find_map(|point| self.sewn.place(point))
     }
 }
 
 /// Stretches of the first joint (rad) in which the first link touches nothing, and whether one goes all round.
-fn open_stretches(scene: &Scene, slices: &Slices<'_>, walls: Walls) -> Vec<([f64; 2], bool)> {
-    let limits = scene.arm.joints()[0].limits;
+fn open_stretches(scene: TwoLinkScene<'_>, slices: &Slices<'_>, walls: Walls) -> Vec<([f64; 2], bool)> {
+    let limits = scene.arm().joints()[0].limits;
     let [low, high] = match limits {
         JointLimits::Continuous => [-PI, PI],
         JointLimits::Range { min, max } => [min, max],

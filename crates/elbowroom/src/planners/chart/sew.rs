@@ -214,15 +214,12 @@ fn near(a: Point, b: Point) -> bool {
 #[cfg(test)]
 mod tests {
     use rand_chacha::ChaCha8Rng;
-    use rand_core::{Rng, SeedableRng};
+    use rand_core::SeedableRng;
 
     use super::super::slabs::Barrier;
     use super::*;
+    use crate::random::unit;
     use crate::surface::{Measure, taut_path};
-
-    fn unit(rng: &mut ChaCha8Rng) -> f64 {
-        (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
-    }
 
     /// Slabs over [0, n] x [0, 4], their barriers straight on or square, begun and ended at random.
     fn random_slabs(rng: &mut ChaCha8Rng) -> Vec<Slab> {

@@ -2,7 +2,7 @@ use super::sew::{Sewn, Stretch, sew};
 use super::slabs::{Cutter, Walls};
 use crate::free_space::merged;
 use crate::geometry::{Point, Segment, Vector};
-use crate::scene::{Scene, Shape};
+use crate::scene::{Shape, TwoLinkScene};
 use crate::verify::innermost_reach;
 
 /// How wide the slabs are that are begun with, as a share of the reach.
@@ -11,15 +11,19 @@ const WIDEST: f64 = 0.03;
 /// Where the tip may be in whatever posture, as a surface over the world's plane (m): the square around the reach
 /// without the obstacles and without the disc that the second joint keeps the tip out of. More than all that can be
 /// reached, for it does not heed what the links touch.
-pub(crate) fn tip_chart(scene: &Scene, walls: Walls, keep_going: &dyn Fn() -> bool) -> Option<Sewn> {
-    let arm = &scene.arm;
+pub(crate) fn tip_chart(
+    scene: TwoLinkScene<'_>,
+    walls: Walls,
+    keep_going: &dyn Fn() -> bool,
+) -> Option<Sewn> {
+    let arm = scene.arm();
     let (base, [_, reach]) = (arm.base(), arm.reach());
     let range = [base.y - reach, base.y + reach];
     let hole = innermost_reach(arm);
     let forbidden = |x: f64| {
         let mut found = Vec::new();
         found.extend(chord(base, hole, x));
-        for obstacle in &scene.obstacles {
+        for obstacle in scene.obstacles() {
             match &obstacle.shape {
                 Shape::Circle(circle) => {
                     found.extend(chord(circle.center, circle.radius + arm.half_width(), x))

@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::ends::Ends;
+use super::super::endpoints::Endpoints;
 use super::super::finish::with_motion;
 use super::super::settings::{Objective, Pace, PlanSettings};
 use super::super::{Monitor, Plan, PlanError, Stage};
@@ -11,9 +11,9 @@ use super::choice::Choice;
 use super::hunt::{Hunt, Patience};
 use super::polyline::around_straight;
 use super::track::Track;
-use crate::arm::PlanarArm;
-use crate::path::{JointPath, turn_is_free};
-use crate::scene::{Scene, Task, TaskPosture};
+use crate::arm::{Configuration, joint_distance};
+use crate::path::{JointPath, straight_move_is_free};
+use crate::scene::Scene;
 use crate::swarm::{CulturalSettings, CulturalSwarm, Fitness, SwarmSettings};
 use crate::trajectory::{Motion, Piece, SpeedLimits, TICK, quartic, quintic, stretch};
 use crate::verify::{Trajectory, VerifySettings};
@@ -60,17 +60,16 @@ const ROUNDS: usize = 6;
 /// # Reference
 /// CBPSO-style: Guo et al., the sixth reference of the paper, of whom only the cultural swarm over quartic and quintic pieces in
 /// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
-pub(super) fn plan(
-    scene: &Scene<PlanarArm>,
-    task: &Task,
-    settings: &PlanSettings,
+pub(in crate::planners) fn plan(
+    scene: &Scene,
+    ends: &Endpoints,
     own: &CbpsoSettings,
-    ends: &Ends,
+    settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, ends);
-    let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
+    let choice = Choice::new(scene.arm(), ends);
+    let track = Track::new(scene, settings.objective, ends.keep_posture);
     let shape = Shape { choice: &choice, vias: own.vias, limits: track.limits(), pace: settings.pace };
     let mut hunt = Hunt::new(own.evaluations, monitor);
     let bounds = choice.bounds(own.vias, &shape.rates()).map_err(PlanError::Bounds)?;
@@ -143,11 +142,11 @@ impl Shape<'_> {
         all
     }
 
-    fn places(&self, x: &[f64]) -> Vec<Vec<f64>> {
+    fn places(&self, x: &[f64]) -> Vec<Configuration> {
         let joints = self.limits.len();
         let [start, goal] = self.choice.pair(x[x.len() - 1]);
         let mut places = vec![start.clone()];
-        places.extend(x[..self.vias * joints].chunks_exact(joints).map(<[f64]>::to_vec));
+        places.extend(x[..self.vias * joints].chunks_exact(joints).map(Configuration::from));
         places.push(goal.clone());
         places
     }
@@ -186,7 +185,13 @@ impl Shape<'_> {
     }
 
     /// Pieces of these durations (s), with velocities slowed down by `factor`.
-    fn pieces(&self, places: &[Vec<f64>], velocities: &[f64], durations: &[f64], factor: f64) -> Vec<Piece> {
+    fn pieces(
+        &self,
+        places: &[Configuration],
+        velocities: &[f64],
+        durations: &[f64],
+        factor: f64,
+    ) -> Vec<Piece> {
         let joints = self.limits.len();
         let mut now = vec![[0.0; 2]; joints];
         let mut start = 0.0;
@@ -236,14 +241,14 @@ fn instants(motion: &Motion, count: usize) -> Vec<Vec<f64>> {
 }
 
 /// A path along the motion, dense enough for its straight turns to be certified, and its places where pieces meet.
-fn followed(scene: &Scene<PlanarArm>, motion: &Motion) -> (JointPath<Vec<f64>>, Vec<usize>) {
+fn followed(scene: &Scene, motion: &Motion) -> (JointPath, Vec<usize>) {
     let mut count = LOOKS;
     loop {
         let places = instants(motion, count);
-        let certified = places.windows(2).all(|pair| turn_is_free(scene, &pair[0], &pair[1]));
+        let certified = places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1]));
         if certified || count >= DENSEST {
             let vias = (0..=motion.pieces().len()).map(|i| i * count).collect();
-            return (JointPath(places), vias);
+            return (JointPath(places.into_iter().map(Configuration::from).collect()), vias);
         }
         count *= 2;
     }
@@ -259,11 +264,10 @@ fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
     looks.windows(2).map(&mut at).sum()
 }
 
-fn cost(scene: &Scene<PlanarArm>, objective: Objective, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
-    use crate::arm::{Arm, joint_distance};
+fn cost(scene: &Scene, objective: Objective, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
     match objective {
         Objective::Tip => {
-            let tips: Vec<_> = looks.iter().map(|q| scene.arm.tip_at(q)).collect();
+            let tips: Vec<_> = looks.iter().map(|q| scene.arm().tip(q)).collect();
             tips.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
         }
         Objective::Joint => looks.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
@@ -271,7 +275,7 @@ fn cost(scene: &Scene<PlanarArm>, objective: Objective, motion: &Motion, looks: 
     }
 }
 
-fn is_safe(scene: &Scene<PlanarArm>, motion: &Motion, monitor: &impl Monitor) -> bool {
+fn is_safe(scene: &Scene, motion: &Motion, monitor: &impl Monitor) -> bool {
     let keep_going = || monitor.keep_going();
     Trajectory::certify_until(scene, motion.clone(), &VerifySettings::default(), &keep_going).is_ok()
 }

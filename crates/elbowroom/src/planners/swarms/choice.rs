@@ -1,7 +1,7 @@
 //! Which start and which goal a particle stands for, and the box it may fly in.
 
-use super::super::ends::{Ends, nearest_turn};
-use crate::arm::{Arm, JointLimits, PlanarArm};
+use super::super::endpoints::Endpoints;
+use crate::arm::{Arm, Configuration, JointLimits};
 use crate::swarm::{Bounds, BoundsError};
 
 /// How far beyond start and goal a continuous joint may go (rad).
@@ -9,16 +9,16 @@ const BEYOND: f64 = std::f64::consts::PI;
 
 /// Pairs of a start and a goal; a particle's last coordinate, in [0, 1], says which.
 pub(super) struct Choice {
-    pairs: Vec<[Vec<f64>; 2]>,
+    pairs: Vec<[Configuration; 2]>,
     ranges: Vec<[f64; 2]>,
 }
 
 impl Choice {
-    pub(super) fn new(arm: &PlanarArm, ends: &Ends) -> Self {
-        let goals_of = |start: &Vec<f64>| -> Vec<[Vec<f64>; 2]> {
-            ends.goals.iter().map(|goal| [start.clone(), nearest_turn(arm, start, goal)]).collect()
+    pub(super) fn new(arm: &Arm, ends: &Endpoints) -> Self {
+        let goals_of = |start: &Configuration| -> Vec<[Configuration; 2]> {
+            ends.goals.iter().map(|goal| [start.clone(), arm.nearest_turn(start, goal)]).collect()
         };
-        let pairs: Vec<[Vec<f64>; 2]> = ends.starts.iter().flat_map(goals_of).collect();
+        let pairs: Vec<[Configuration; 2]> = ends.starts.iter().flat_map(goals_of).collect();
         let range = |(j, limits): (usize, JointLimits)| match limits {
             JointLimits::Range { min, max } => [min, max],
             JointLimits::Continuous => {
@@ -39,7 +39,7 @@ impl Choice {
     }
 
     /// Start and goal that `coordinate` stands for.
-    pub(super) fn pair(&self, coordinate: f64) -> &[Vec<f64>; 2] {
+    pub(super) fn pair(&self, coordinate: f64) -> &[Configuration; 2] {
         let index = (coordinate * self.pairs.len() as f64) as usize;
         &self.pairs[index.min(self.pairs.len() - 1)]
     }

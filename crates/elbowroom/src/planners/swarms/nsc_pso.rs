@@ -3,17 +3,18 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::ends::Ends;
+use super::super::endpoints::Endpoints;
 use super::super::finish::along;
 use super::super::settings::PlanSettings;
 use super::super::{Monitor, Plan, PlanError, Stage};
 use super::choice::Choice;
 use super::hunt::{Hunt, Patience};
-use super::polyline::{certified, places, unit};
+use super::polyline::{certified, places};
 use super::track::Track;
-use crate::arm::PlanarArm;
+use crate::arm::Configuration;
 use crate::path::JointPath;
-use crate::scene::{Scene, Task, TaskPosture};
+use crate::random::unit;
+use crate::scene::Scene;
 use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
 
 /// Where the first particles are.
@@ -60,18 +61,17 @@ const LEAST_SHAKE: f64 = 0.05;
 /// # Reference
 /// NSC-PSO-style: Kim and Lee, the eighth reference of the paper, whose formula of the normalised step cost is not known; the
 /// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
-pub(super) fn plan(
-    scene: &Scene<PlanarArm>,
-    task: &Task,
-    settings: &PlanSettings,
+pub(in crate::planners) fn plan(
+    scene: &Scene,
+    ends: &Endpoints,
     own: &NscPsoSettings,
-    ends: &Ends,
+    settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, ends);
-    let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
-    let mut hunt: Hunt<'_, _, Vec<Vec<f64>>> = Hunt::new(own.evaluations, monitor);
+    let choice = Choice::new(scene.arm(), ends);
+    let track = Track::new(scene, settings.objective, ends.keep_posture);
+    let mut hunt: Hunt<'_, _, Vec<Configuration>> = Hunt::new(own.evaluations, monitor);
     let bounds = choice.bounds(own.waypoints, &[]).map_err(PlanError::Bounds)?;
     let swarm_settings = SwarmSettings {
         iterations: ITERATIONS,
@@ -121,10 +121,7 @@ fn shaken(
         .map(|i| {
             let coordinate = chosen.next().unwrap_or(0.0);
             let [start, goal] = choice.pair(coordinate);
-            let at = |k: usize| -> Vec<f64> {
-                let share = k as f64 / (waypoints + 1) as f64;
-                start.iter().zip(goal).map(|(a, b)| a + (b - a) * share).collect()
-            };
+            let at = |k: usize| start.lerp(goal, k as f64 / (waypoints + 1) as f64);
             let costs =
                 normalised(&(1..=waypoints).map(|k| track.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>());
             let shake = SHAKE * i as f64 / count as f64;

@@ -1,26 +1,26 @@
 //! Particles that stand for configurations joined by straight turns.
 
 use rand_chacha::ChaCha8Rng;
-use rand_core::Rng;
 
 use super::choice::Choice;
-use crate::arm::PlanarArm;
-use crate::path::turn_is_free;
+use crate::arm::Configuration;
+use crate::path::straight_move_is_free;
+use crate::random::unit;
 use crate::scene::Scene;
 
 /// Start, the configurations in a particle's coordinates, and goal, as its last coordinate chooses them.
-pub(super) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Vec<f64>> {
+pub(super) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Configuration> {
     let (chosen, inner) = coordinates.split_last().unwrap_or((&0.0, &[]));
     let [start, goal] = choice.pair(*chosen);
     let mut places = vec![start.clone()];
-    places.extend(inner.chunks_exact(start.len()).map(<[f64]>::to_vec));
+    places.extend(inner.chunks_exact(start.len()).map(Configuration::from));
     places.push(goal.clone());
     places
 }
 
 /// `places`, if the arm may turn straight from each to the next.
-pub(super) fn certified(scene: &Scene<PlanarArm>, places: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
-    places.windows(2).all(|pair| turn_is_free(scene, &pair[0], &pair[1])).then_some(places)
+pub(super) fn certified(scene: &Scene, places: Vec<Configuration>) -> Option<Vec<Configuration>> {
+    places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1])).then_some(places)
 }
 
 /// Coordinates of `count` particles with `vias` configurations each, on the straight turns from starts to goals and, one
@@ -49,9 +49,4 @@ pub(super) fn around_straight(
             position
         })
         .collect()
-}
-
-/// In [0, 1).
-pub(super) fn unit(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }

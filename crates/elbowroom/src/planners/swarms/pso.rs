@@ -3,7 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::ends::Ends;
+use super::super::endpoints::Endpoints;
 use super::super::finish::along;
 use super::super::settings::PlanSettings;
 use super::super::{Monitor, Plan, PlanError, Stage};
@@ -11,9 +11,9 @@ use super::choice::Choice;
 use super::hunt::{Hunt, Patience};
 use super::polyline::{around_straight, certified, places};
 use super::track::Track;
-use crate::arm::PlanarArm;
+use crate::arm::Configuration;
 use crate::path::JointPath;
-use crate::scene::{Scene, Task, TaskPosture};
+use crate::scene::Scene;
 use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
 
 /// Iterations over which a swarm's inertia falls.
@@ -43,18 +43,17 @@ impl Default for PsoSettings {
 ///
 /// # Reference
 /// Kennedy and Eberhart, *Particle swarm optimization* (1995); Shi and Eberhart (1998) for the inertia weight.
-pub(super) fn plan(
-    scene: &Scene<PlanarArm>,
-    task: &Task,
-    settings: &PlanSettings,
+pub(in crate::planners) fn plan(
+    scene: &Scene,
+    ends: &Endpoints,
     own: &PsoSettings,
-    ends: &Ends,
+    settings: &PlanSettings,
     monitor: &impl Monitor,
 ) -> Result<Plan, PlanError> {
     monitor.stage(Stage::JointPath);
-    let choice = Choice::new(&scene.arm, ends);
-    let track = Track::new(scene, settings.objective, task.posture == TaskPosture::Keep);
-    let mut hunt: Hunt<'_, _, Vec<Vec<f64>>> = Hunt::new(own.evaluations, monitor);
+    let choice = Choice::new(scene.arm(), ends);
+    let track = Track::new(scene, settings.objective, ends.keep_posture);
+    let mut hunt: Hunt<'_, _, Vec<Configuration>> = Hunt::new(own.evaluations, monitor);
     let bounds = choice.bounds(own.vias, &[]).map_err(PlanError::Bounds)?;
     let swarm_settings = SwarmSettings {
         neighbourhood: own.neighbourhood,

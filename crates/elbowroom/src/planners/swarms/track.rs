@@ -3,7 +3,7 @@
 use super::super::contacts::Contacts;
 use super::super::limits::motion_limits;
 use super::super::settings::Objective;
-use crate::arm::{Arm, PlanarArm, joint_distance};
+use crate::arm::{Configuration, joint_distance, lerp};
 use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
 
@@ -17,7 +17,7 @@ const KEPT: f64 = 2e-3;
 
 /// The measure of candidates. It orders them; what is handed out is certified.
 pub(super) struct Track<'a> {
-    pub(super) scene: &'a Scene<PlanarArm>,
+    pub(super) scene: &'a Scene,
     objective: Objective,
     limits: Vec<SpeedLimits>,
     look_every: f64,
@@ -27,9 +27,9 @@ pub(super) struct Track<'a> {
 }
 
 impl<'a> Track<'a> {
-    pub(super) fn new(scene: &'a Scene<PlanarArm>, objective: Objective, keeps_posture: bool) -> Self {
-        let (limits, _) = motion_limits(&scene.arm);
-        let [_, reach] = scene.arm.reach();
+    pub(super) fn new(scene: &'a Scene, objective: Objective, keeps_posture: bool) -> Self {
+        let (limits, _) = motion_limits(scene.arm());
+        let [_, reach] = scene.arm().reach();
         let contacts = Contacts::new(scene, KEPT * reach);
         Self { scene, objective, limits, look_every: LOOK_EVERY * reach, contacts, keeps_posture }
     }
@@ -39,14 +39,14 @@ impl<'a> Track<'a> {
     }
 
     /// What straight turns from place to place cost.
-    pub(super) fn cost(&self, places: &[Vec<f64>]) -> f64 {
+    pub(super) fn cost(&self, places: &[Configuration]) -> f64 {
         let pairs = places.windows(2);
         match self.objective {
             Objective::Tip => pairs.map(|pair| self.tip_travel(&pair[0], &pair[1])).sum(),
             Objective::Joint => pairs.map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
             Objective::Time => pairs
                 .map(|pair| {
-                    let joints = pair[0].iter().zip(&pair[1]).zip(&self.limits);
+                    let joints = pair[0].iter().zip(pair[1].iter()).zip(&self.limits);
                     joints.map(|((a, b), limit)| (b - a).abs() / limit.velocity).fold(0.0, f64::max)
                 })
                 .sum(),
@@ -55,7 +55,7 @@ impl<'a> Track<'a> {
 
     /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
     /// points (m²); 0 where it keeps some clearance wherever it is looked at.
-    pub(super) fn violation(&self, places: &[Vec<f64>]) -> f64 {
+    pub(super) fn violation(&self, places: &[Configuration]) -> f64 {
         let mut watch = self.watch(&places[0]);
         places.windows(2).map(|pair| self.turn(&pair[0], &pair[1], &mut watch)).sum()
     }
@@ -82,7 +82,7 @@ impl<'a> Track<'a> {
     /// Tip travel on a straight turn (m), by chords from look to look.
     fn tip_travel(&self, from: &[f64], to: &[f64]) -> f64 {
         let looks = self.looks(from, to);
-        let tip = |i: usize| self.scene.arm.tip_at(&between(from, to, i as f64 / looks as f64));
+        let tip = |i: usize| self.scene.arm().tip(&lerp::<Configuration>(from, to, i as f64 / looks as f64));
         let mut last = tip(0);
         (1..=looks)
             .map(|i| {
@@ -102,7 +102,7 @@ impl<'a> Track<'a> {
     fn beyond(&self, q: &[f64], start: &[f64]) -> f64 {
         let beyond: f64 = self
             .scene
-            .arm
+            .arm()
             .joints()
             .iter()
             .zip(q)
@@ -115,14 +115,14 @@ impl<'a> Track<'a> {
             (true, [_, bend], [_, before]) if bend.sin() * before.sin() < 0.0 => bend.sin().abs(),
             _ => 0.0,
         };
-        let [_, reach] = self.scene.arm.reach();
+        let [_, reach] = self.scene.arm().reach();
         (beyond + flipped) * reach
     }
 
     /// How far a point of the arm may move (m) while the joints turn evenly.
     pub(super) fn way(&self, from: &[f64], to: &[f64]) -> f64 {
         let mut turn = 0.0;
-        let links = self.scene.arm.lengths().iter().zip(from.iter().zip(to));
+        let links = self.scene.arm().lengths().iter().zip(from.iter().zip(to));
         links
             .map(|(length, (a, b))| {
                 turn += b - a;
@@ -153,8 +153,4 @@ impl Watch<'_> {
         }
         violation
     }
-}
-
-fn between(from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
-    from.iter().zip(to).map(|(a, b)| a + (b - a) * share).collect()
 }

@@ -1,13 +1,15 @@
-//! Where a task begins and ends, for arms of any number of links.
+//! Where a task begins and ends: the first stage of every planner.
 
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
+use rand_core::SeedableRng;
 
+use super::pairs::pairs;
 use super::{Monitor, PlanError};
-use crate::arm::{Arm, Joint, JointLimits, PlanarArm, Posture, joint_distance};
+use crate::arm::{Configuration, Joint, JointLimits, Posture};
 use crate::free_space::{self, NotFree, Reason, reason_against};
 use crate::geometry::Point;
-use crate::scene::{Place, Scene, Task, TaskPosture};
+use crate::random::within;
+use crate::scene::{Place, Scene, Task, TaskPosture, TwoLinkError};
 
 /// Configurations from which the tip is led to its place, one after the other.
 const MOST_TRIES: usize = 512;
@@ -23,35 +25,27 @@ const WIDEST_DRAW: f64 = std::f64::consts::PI;
 
 /// A task in configurations: any of the starts will do, and any of the goals.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Ends {
-    /// Free configurations, a position per joint each (rad).
-    pub(crate) starts: Vec<Vec<f64>>,
+pub(crate) struct Endpoints {
+    /// Free configurations.
+    pub(crate) starts: Vec<Configuration>,
     /// The same.
-    pub(crate) goals: Vec<Vec<f64>>,
+    pub(crate) goals: Vec<Configuration>,
+    /// Whether the whole motion has to keep the posture it starts in: of an arm of two links only.
+    pub(crate) keep_posture: bool,
 }
 
-impl Ends {
+impl Endpoints {
     /// The free configurations of `task`: all of them where there are two links or the task names them, else some that
     /// were found from `seed`.
     pub(crate) fn new(
-        scene: &Scene<PlanarArm>,
+        scene: &Scene,
         task: &Task,
         seed: u64,
         monitor: &impl Monitor,
     ) -> Result<Self, PlanError> {
-        let find = |place: &Place, end: &'static str| {
-            let wrap: fn(NotFree) -> PlanError =
-                if end == "start" { PlanError::Start } else { PlanError::Goal };
-            match scene.two_link() {
-                Some(scene) => free_space::configurations(&scene, place)
-                    .map(|found| found.into_iter().map(|q| q.0.to_vec()).collect())
-                    .map_err(wrap),
-                None => configurations(scene, place, seed, monitor, (end, wrap)),
-            }
-        };
-        let (starts, mut goals): (Vec<Vec<f64>>, Vec<Vec<f64>>) =
-            (find(&task.start, "start")?, find(&task.goal, "goal")?);
-        let links = scene.arm.lengths().len();
+        let starts = free_at(scene, &task.start, seed, monitor, ("start", PlanError::Start))?;
+        let mut goals = free_at(scene, &task.goal, seed, monitor, ("goal", PlanError::Goal))?;
+        let links = scene.arm().links();
         if links > 2 && task.posture != TaskPosture::Any {
             return Err(PlanError::PostureOfMany { links });
         }
@@ -67,33 +61,43 @@ impl Ends {
                 return Err(PlanError::GoalPosture { wanted });
             }
         }
-        Ok(Self { starts, goals })
+        Ok(Self { starts, goals, keep_posture: task.posture == TaskPosture::Keep })
+    }
+
+    /// A start that is a goal already.
+    pub(crate) fn already_there(&self) -> Option<&Configuration> {
+        self.starts.iter().find(|start| self.goals.contains(start))
+    }
+
+    /// Starts and goals as the closed forms of two links have them; none of an arm of more.
+    pub(crate) fn pairs(&self) -> [Vec<[f64; 2]>; 2] {
+        [pairs(&self.starts), pairs(&self.goals)]
     }
 }
 
 /// The posture of an arm of two links at `q`; `None` with the links in line, and for other arms.
 pub(crate) fn posture(q: &[f64]) -> Option<Posture> {
-    Posture::of(&crate::arm::Configuration(<[f64; 2]>::try_from(q).ok()?))
+    Posture::of(<&[f64; 2]>::try_from(q).ok()?)
 }
 
-/// `goal` with every continuous joint counted on by whole turns to where it is nearest to `from` (rad).
-pub(crate) fn nearest_turn(arm: &PlanarArm, from: &[f64], goal: &[f64]) -> Vec<f64> {
-    let joints = arm.joints().iter().zip(from.iter().zip(goal));
-    joints
-        .map(|(joint, (&from, &goal))| match joint.limits {
-            JointLimits::Continuous => from + crate::geometry::angle_difference(from, goal),
-            JointLimits::Range { .. } => goal,
-        })
-        .collect()
-}
+/// What an end of a task is called, and what it is that it is not free.
+type End = (&'static str, fn(NotFree) -> PlanError);
 
-fn configurations(
-    scene: &Scene<PlanarArm>,
+fn free_at(
+    scene: &Scene,
     place: &Place,
     seed: u64,
     monitor: &impl Monitor,
-    (end, wrap): (&'static str, fn(NotFree) -> PlanError),
-) -> Result<Vec<Vec<f64>>, PlanError> {
+    (end, wrap): End,
+) -> Result<Vec<Configuration>, PlanError> {
+    match scene.two_link() {
+        Ok(scene) => {
+            let found = free_space::configurations(scene, place).map_err(wrap)?;
+            return Ok(found.into_iter().map(Configuration::from).collect());
+        }
+        Err(TwoLinkError::Links { .. }) => {}
+        Err(TwoLinkError::Moving { obstacle, name }) => return Err(PlanError::Moving { obstacle, name }),
+    }
     let not_free = |reasons| wrap(NotFree { place: place.clone(), reasons, nearest_free: None });
     let tip = match place {
         Place::Configuration(q) => {
@@ -104,8 +108,8 @@ fn configurations(
         }
         Place::Tip(tip) => *tip,
     };
-    let [nearest, farthest] = scene.arm.reach();
-    let distance = tip.distance(scene.arm.base());
+    let [nearest, farthest] = scene.arm().reach();
+    let distance = tip.distance(scene.arm().base());
     if !(nearest..=farthest).contains(&distance) {
         return Err(not_free(vec![(None, Reason::OutOfReach { distance, nearest, farthest })]));
     }
@@ -118,13 +122,14 @@ fn configurations(
 
 /// Free configurations that put the tip at `tip`, different from each other.
 fn reaching(
-    scene: &Scene<PlanarArm>,
+    scene: &Scene,
     tip: Point,
     seed: u64,
     monitor: &impl Monitor,
-) -> Result<Vec<Vec<f64>>, PlanError> {
+) -> Result<Vec<Configuration>, PlanError> {
+    let arm = scene.arm();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut found: Vec<Vec<f64>> = Vec::new();
+    let mut found: Vec<Configuration> = Vec::new();
     for _ in 0..MOST_TRIES {
         if found.len() == ENOUGH {
             break;
@@ -132,12 +137,9 @@ fn reaching(
         if !monitor.keep_going() {
             return Err(PlanError::Stopped);
         }
-        let from: Vec<f64> = scene.arm.joints().iter().map(|joint| drawn(joint, &mut rng)).collect();
-        let Some(q) = scene.arm.inverse_near(tip, &from) else { continue };
-        let is_new = found.iter().all(|known| {
-            let nearest = nearest_turn(&scene.arm, known, &q);
-            joint_distance(known, &nearest) > DIFFERENT
-        });
+        let from: Configuration = arm.joints().iter().map(|joint| drawn(joint, &mut rng)).collect();
+        let Some(q) = arm.inverse_near(tip, &from) else { continue };
+        let is_new = found.iter().all(|known| arm.distance(known, &q) > DIFFERENT);
         if is_new && reason_against(scene, &q).is_none() {
             found.push(q);
         }
@@ -151,6 +153,5 @@ fn drawn(joint: &Joint, rng: &mut ChaCha8Rng) -> f64 {
         JointLimits::Continuous => (-WIDEST_DRAW, WIDEST_DRAW),
         JointLimits::Range { min, max } => (min.max(-WIDEST_DRAW).min(max), max.min(WIDEST_DRAW).max(min)),
     };
-    let unit = (rng.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-    min + unit * (max - min)
+    within(rng, min, max)
 }

@@ -1,0 +1,91 @@
+use super::continuity;
+use super::limits;
+use super::posture_changes::posture_changes;
+use super::sweep::Passage;
+use super::{Verdict, VerifySettings, Violation};
+use crate::scene::Scene;
+use crate::trajectory::Motion;
+
+/// Judges whether the scene's arm can run `motion` safely: clear of all obstacles, and of itself where the arm
+/// asks for it, by more than the margin, within joint and motion limits, with position, velocity and acceleration that do
+/// not jump.
+///
+/// Obstacles that move are looked at in space and time, over the whole time of the motion, by their courses; one whose
+/// course is unknown may be anywhere that its greatest speed allows.
+///
+/// Start and end need not be at rest. Joint limits are closed and allowed 1e-12 rad of rounding, motion limits
+/// a share of 1e-12.
+///
+/// # Reference
+/// Schwarzer, Saha and Latombe, *Adaptive dynamic collision checking*, IEEE T-RO 21(3), 2005, for the bisection
+/// with motion bounds; Farouki, *The Bernstein polynomial basis: a centennial retrospective*, CAGD 29(6), 2012,
+/// for the bounds of the polynomials.
+pub fn verify(scene: &Scene, motion: &Motion, settings: &VerifySettings) -> Verdict {
+    verify_until(scene, motion, settings, &|| true)
+}
+
+/// [`verify`] that ends early with [`Violation::Stopped`] when `keep_going` says no; asked for every piece and
+/// pair before the first configuration and again after every 64.
+pub fn verify_until(
+    scene: &Scene,
+    motion: &Motion,
+    settings: &VerifySettings,
+    keep_going: &dyn Fn() -> bool,
+) -> Verdict {
+    let mut violations = Vec::new();
+    let joints = scene.arm().joints();
+    if motion.joints() != joints.len() {
+        let (found, joints, time) = (motion.joints(), joints.len(), motion.start());
+        violations.push(Violation::OtherArm { found, joints, time });
+        return Verdict {
+            violations,
+            least_clearance: None,
+            joint_margins: Vec::new(),
+            motion_margins: Vec::new(),
+            posture_changes: Vec::new(),
+        };
+    }
+    let pieces = limits::workable_pieces(motion, &mut violations);
+    let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
+    let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
+    let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
+    let passage = Passage { scene, pieces: &pieces, passed_jumps: &passed_jumps };
+    let least_clearance = passage.check(settings, keep_going, &mut violations);
+    violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
+    Verdict {
+        violations,
+        least_clearance,
+        joint_margins: reports.iter().map(|report| report.stops).collect(),
+        motion_margins: reports.iter().map(|report| report.motion).collect(),
+        posture_changes: posture_changes(&pieces),
+    }
+}
+
+/// When the first of the violations begins that [`verify`] would report (s), infinite where there is none; the time
+/// of any of them, which costs less, if `any_will_do`.
+///
+/// How deep contacts are and how near the arm comes to what it does not touch costs the most of a verdict, and is not
+/// worked out. Where the budget of evaluations runs out, this may decide what a verdict does not.
+pub(crate) fn clear_until(
+    scene: &Scene,
+    motion: &Motion,
+    settings: &VerifySettings,
+    any_will_do: bool,
+) -> f64 {
+    let joints = scene.arm().joints();
+    if motion.joints() != joints.len() {
+        return motion.start();
+    }
+    let mut violations = Vec::new();
+    let pieces = limits::workable_pieces(motion, &mut violations);
+    let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
+    for (j, joint) in joints.iter().enumerate() {
+        limits::check(joint, j, pieces.iter().copied(), &mut violations);
+    }
+    let first = violations.iter().map(Violation::time).fold(f64::INFINITY, f64::min);
+    if any_will_do && first < f64::INFINITY {
+        return first;
+    }
+    let passage = Passage { scene, pieces: &pieces, passed_jumps: &passed_jumps };
+    passage.clear_until(settings, first, any_will_do)
+}
