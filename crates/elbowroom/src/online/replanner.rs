@@ -125,7 +125,7 @@ impl Replanner {
         let rest = self.rest(now, state);
         let verdict_of_rest = rest.as_ref().map(|rest| search.judge(rest));
         let is_safe = verdict_of_rest.as_ref().is_some_and(Verdict::is_safe);
-        if is_safe && self.reaches_goal && self.updates % LOOK_EVERY != 1 {
+        if is_safe && self.reaches_goal && !self.updates.is_multiple_of(LOOK_EVERY) {
             return self.keep(verdict_of_rest);
         }
         let arrival = if is_safe && self.reaches_goal { self.motion.end() } else { f64::INFINITY };
@@ -134,12 +134,12 @@ impl Replanner {
             Err(refused) => refused,
         };
         if arrival.is_infinite()
-            && let Some((motion, verdict)) = refused.iter().find_map(|motion| search.part_of(motion))
+            && let Some((motion, verdict)) = refused.iter().find_map(|motion| search.part_of(motion, true))
         {
             return self.run(motion, false, verdict);
         }
         if is_safe {
-            let may_look = !self.reaches_goal && self.updates % LOOK_EVERY == 1;
+            let may_look = !self.reaches_goal && self.updates.is_multiple_of(LOOK_EVERY);
             let safer = rest.filter(|_| may_look).and_then(|rest| search.safer(&rest, &mut self.rng));
             return match safer {
                 Some((motion, verdict)) => self.run(motion, false, verdict),
@@ -149,6 +149,10 @@ impl Replanner {
         let motion = search.retreat(&mut self.rng);
         let verdict = search.judge(&motion);
         if verdict.is_safe() {
+            return self.run(motion, false, verdict);
+        }
+        // A part that may lead into a trap leaves more time than one that is not safe now.
+        if let Some((motion, verdict)) = refused.iter().find_map(|motion| search.part_of(motion, false)) {
             return self.run(motion, false, verdict);
         }
         // Nothing is proved to be safe: what is safe the longest leaves the most time to find something.

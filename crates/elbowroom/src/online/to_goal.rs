@@ -108,9 +108,9 @@ impl Search<'_> {
         motions
     }
 
-    /// As much of `motion` as is safe with a brake after it, as far as is looked ahead: the way that is open for now may be
-    /// a trap.
-    pub(super) fn part_of(&self, motion: &Motion) -> Option<(Motion, Verdict)> {
+    /// As much of `motion` as is safe with a brake after it and standing there: as far as is looked ahead if `far`, for the
+    /// way that is open for now may be a trap, else as long as every motion has to be.
+    pub(super) fn part_of(&self, motion: &Motion, far: bool) -> Option<(Motion, Verdict)> {
         STRETCHES.iter().filter(|stretch| **stretch < motion.duration()).find_map(|stretch| {
             if !(self.keep_going)() {
                 return None;
@@ -119,7 +119,7 @@ impl Search<'_> {
             let first = motion.before(end)?;
             let stop = brake(end, &motion.at(end), self.limits)?;
             let part = first.then(Motion::new(vec![stop]).ok()?).ok()?;
-            if self.safe_until(&part) < f64::INFINITY {
+            if far && self.safe_until(&part) < f64::INFINITY {
                 return None;
             }
             let verdict = self.judge(&part);
