@@ -1,11 +1,13 @@
 //! Measures one piece of the core's work and prints JSON: what `make bench` sets beside the peers.
 //!
 //! `measure map SCENE POINTS RUNS OUT`, `measure field MASK POINTS GOAL RUNS OUT`, `measure repair SCENE POINTS RUNS`,
-//! `measure plan SCENE TASK POINTS PLANNER OBJECTIVE RUNS`, `measure swarm RUNS`, `measure timing SCENE VIAS RUNS`,
+//! `measure plan SCENE TASK POINTS PLANNER OBJECTIVE RUNS`, `measure edges SCENE RUNS`, `measure swarm RUNS`,
+//! `measure timing SCENE VIAS RUNS`,
 //! `measure online SCENE POINTS MOVING UPKEEP UPDATES COMPARE RUNS`,
 //! `measure repaired SCENE POINTS MOVES`, `measure replan SCENE POINTS MOVING SECONDS DEADLINE_MS RUNS`.
 //! Times are of the wall (ms), set-up and answers' files left out; `RAYON_NUM_THREADS` says how many cores.
 
+mod edges;
 mod field;
 mod map;
 mod online;
@@ -32,8 +34,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         ["repair", scene, points, runs] => repair::measure(scene, points.parse()?, runs.parse()?)?,
         ["plan", scene, task, points, planner, objective, runs] => {
-            plan::measure([scene, task, planner, objective], points.parse()?, runs.parse()?)?
+            plan::measure([scene, task, points, planner, objective], runs.parse()?)?
         }
+        ["edges", scene, runs] => edges::measure(scene, runs.parse()?)?,
         ["online", scene, points, moving, upkeep, updates, compare, runs] => {
             let counts = [updates.parse()?, compare.parse()?, runs.parse()?];
             online::measure([scene, moving, upkeep], points.parse()?, counts)?

@@ -1,19 +1,19 @@
 use elbowroom::planners::{Objective, PlanSettings, Planner, Unwatched, plan};
-use elbowroom::swarm::GuidedSwarmSettings;
+use elbowroom::scene::parse;
+use elbowroom::verify::{VerifySettings, verify};
 use serde_json::json;
 
 use super::{Outcome, runs, scenes};
 
-/// A whole plan: map to verified trajectory.
-pub(crate) fn measure([file, task, planner, objective]: [&str; 4], points: usize, runs: usize) -> Outcome {
-    let scene = scenes::load(file, points)?;
-    let task = scene.task(task).ok_or("no such task")?;
-    let planner = match planner {
-        "dstar" => Planner::Dstar,
-        "dstar-pso" => Planner::DstarPso(GuidedSwarmSettings::default()),
-        "optimal" => Planner::Optimal,
-        _ => return Err("no such planner".into()),
+/// A whole plan: map to verified trajectory, and the verdict on it once more. `points` along each side of the grid, or `-`
+/// for the grid of the file, with which arms of more links than two are served.
+pub(crate) fn measure([file, task, points, planner, objective]: [&str; 5], runs: usize) -> Outcome {
+    let scene = match points {
+        "-" => parse(&std::fs::read_to_string(file)?, file)?.scene,
+        points => scenes::load(file, points.parse()?)?,
     };
+    let task = scene.task(task).ok_or("no such task")?;
+    let planner = Planner::by_name(planner, &[])?;
     let objective = [Objective::Tip, Objective::Joint, Objective::Time]
         .into_iter()
         .find(|known| known.name() == objective)
@@ -21,11 +21,14 @@ pub(crate) fn measure([file, task, planner, objective]: [&str; 4], points: usize
     let settings = PlanSettings { objective, ..PlanSettings::default() };
     let (times, found) = runs::times(runs, || plan(&scene, task, &planner, &settings, &Unwatched));
     let found = found?;
+    let motion = found.trajectory.motion();
+    let (verdicts, verdict) = runs::times(runs, || verify(&scene, motion, &VerifySettings::default()));
     Ok(json!({
         "times_ms": times,
+        "verify_ms": verdicts,
         "cost": found.cost,
         "path_cost": found.path_cost,
-        "duration": found.trajectory.motion().duration(),
-        "safe": found.trajectory.verdict().is_safe(),
+        "duration": motion.duration(),
+        "safe": verdict.is_safe(),
     }))
 }
