@@ -32,12 +32,14 @@ fn message(text: &str) -> String {
 }
 
 /// The texts of all example scenes, in the order of their names.
-fn examples() -> Vec<String> {
+fn examples() -> std::io::Result<Vec<String>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/elbowroom/scenes");
-    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let paths: std::io::Result<Vec<_>> =
+        fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect();
+    let mut paths = paths?;
     paths.retain(|path| path.extension().is_some_and(|e| e == "yaml"));
     paths.sort();
-    paths.iter().map(|path| fs::read_to_string(path).unwrap()).collect()
+    paths.iter().map(fs::read_to_string).collect()
 }
 
 #[test]
@@ -85,7 +87,7 @@ fn damaged_files_never_do_worse_than_be_refused() {
         "[", "]", "{", "}", ":", "-", "\n", " ", "&a", "*a", "!!t", "\"", "'", "#", ".nan", "1e400", "é",
         "\0", "|", ">", "?", "%", "@", "\t", "\r", "---\n", "\u{feff}", "<<: ",
     ];
-    let mut texts = examples();
+    let mut texts = examples().unwrap();
     assert!(texts.len() > 10, "only {} example scenes", texts.len());
     texts.push(SOUND.to_owned());
     let (mut refused, mut sound) = (0, 0);
