@@ -2,21 +2,21 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
-.PHONY: demo test campaign setup bench bench-core tables table2 ompl clean
+.PHONY: demo test campaign setup extras deny mutants bench bench-core tables table2 ompl clean
 
 demo: setup
 	$(BIN)/elbowroom paper --out out/paper
 	@echo "Open out/paper/report.md, or the pictures in out/paper/paper-standin."
 
-test: setup
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --group extras || echo "Ray, OMPL or others do not install: their tests are left out"
+test: setup extras
 	cargo fmt --check
 	cargo clippy --workspace --all-targets -- -D warnings
 	cargo clippy -p elbowroom --lib --no-default-features -- -D warnings
 	cargo test --workspace --quiet
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
-	$(BIN)/ruff format --check python tests bench
-	$(BIN)/ruff check python tests bench
+	@if command -v cargo-deny >/dev/null; then $(DENY); else echo "SKIPPED: cargo-deny is not installed; make deny installs it"; fi
+	$(BIN)/ruff format --check python tests bench fuzz
+	$(BIN)/ruff check python tests bench fuzz
 	$(BIN)/mypy
 	MYPYPATH=python $(BIN)/python -m mypy.stubtest elbowroom._core
 	$(BIN)/python -m pytest
@@ -43,7 +43,7 @@ bench:
 	@test -x .venv-bench/bin/python || $(PYTHON) -m venv .venv-bench
 	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
 	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check .
-	@for peer in $$(.venv-bench/bin/python -m bench.peers); do \
+	@for peer in $$(.venv-bench/bin/python -m bench.group bench); do \
 		.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check "$$peer" || echo "$$peer does not install"; \
 	done
 	cargo build --release --quiet -p elbowroom --example measure
@@ -61,14 +61,42 @@ ompl:
 	.venv-ompl/bin/python bench/ompl_safety.py --worlds 100 --seed 0 --out docs/ompl.md
 	.venv-ompl/bin/python bench/ompl_picture.py --out docs/images/ompl_contact.png
 
+# Licences, duplicates and sources of what is depended on; advisories have a database of their own, which hosted CI fetches.
+DENY := cargo deny --log-level error check licenses bans sources
+deny:
+	@command -v cargo-deny >/dev/null || cargo install --locked cargo-deny
+	$(DENY)
+
+# 150 mutants, each against the tests of its module: docs/mutants.md, within an hour on two cores.
+mutants: setup
+	@command -v cargo-mutants >/dev/null || cargo install --locked cargo-mutants
+	$(BIN)/python -m bench.mutants
+
 # Builds the extension when its sources changed; a complaint about a missing tool is one line.
-setup:
+setup: .venv/installed
+	@$(BIN)/maturin develop --release --quiet --skip-install
+
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+
+# Asks the network only where the list of what is needed changed, or the clone is new.
+.venv/installed: pyproject.toml Makefile
 	@command -v cargo >/dev/null 2>&1 || { echo "error: no Rust toolchain found; install Rust 1.89 or newer from https://rustup.rs" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { echo "error: $(PYTHON) is not Python 3.11 or newer; install it, or name another: make PYTHON=python3.12 $(MAKECMDGOALS)" >&2; exit 1; }
 	@test -x $(BIN)/python || $(PYTHON) -m venv .venv
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev
+	@$(PIP) --upgrade "pip>=25.1"
+	@$(PIP) --group dev
 	@$(BIN)/maturin develop --release --quiet
+	@touch $@
+
+# Tried again each time while one of them does not install.
+extras: .venv/installed
+	@test .venv/extras -nt .venv/installed || { \
+		missing=0; \
+		for extra in $$($(BIN)/python -m bench.group extras); do \
+			$(PIP) "$$extra" || { missing=1; echo "SKIPPED: $$extra does not install, its tests are left out"; }; \
+		done; \
+		test $$missing = 1 || touch .venv/extras; \
+	}
 
 clean:
 	rm -rf .venv .venv-ompl .venv-bench out target

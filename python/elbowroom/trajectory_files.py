@@ -21,6 +21,9 @@ Floats = NDArray[np.float64]
 LARGEST_FILE = 256 * 1024 * 1024
 """Largest trajectory file that is read (bytes)."""
 
+CONSTRUCTOR_ERRORS = (RecursionError, ValueError, ArithmeticError, AttributeError, LookupError, TypeError)
+"""What PyYAML may fail with, besides its own errors, where a value is not what its tag says."""
+
 RATES = (("v", "rad_s", "velocities"), ("a", "rad_s2", "accelerations"))
 
 
@@ -66,20 +69,23 @@ def read_trajectory(path: Path, *, joints: int, names: Sequence[str] | None = No
 
 
 def _table(text: str, joints: int) -> TrajectorySamples:
-    rows = [row for row in csv.reader(io.StringIO(text)) if row]
+    try:
+        rows = [row for row in csv.reader(io.StringIO(text)) if row]
+    except csv.Error as error:
+        raise TrajectoryError(f"not CSV: {error}") from None
     header, body = [name.strip() for name in rows[0]], rows[1:]
     needed = ["time_s", *columns_of(joints)]
     known = {*needed, "x_m", "y_m", *(name for letter, unit, _ in RATES for name in columns_of(joints, letter, unit))}
     if missing := [name for name in needed if name not in header]:
         raise TrajectoryError(
-            f"column {missing[0]} is missing, the arm has {joints} joints; found {', '.join(header)[:100]}"
+            f"column {missing[0]} is missing, the arm has {joints} joints; found {_shown(', '.join(header))}"
         )
     beyond = [name for name in header if (m := re.match(r"[qva]([1-9]\d{0,8})_", name)) and int(m[1]) > joints]
     if beyond:
-        raise TrajectoryError(f"column {beyond[0]} is of a joint too many: the arm has {joints} joints")
+        raise TrajectoryError(f"column {_shown(beyond[0])} is of a joint too many: the arm has {joints} joints")
     if unknown := [name for name in header if name not in known]:
         raise TrajectoryError(
-            f"no such column: {unknown[0]}; known for an arm of {joints} joints are time_s, "
+            f"no such column: {_shown(unknown[0])}; known for an arm of {joints} joints are time_s, "
             + ", ".join(
                 f"{letter}1_{unit} to {letter}{joints}_{unit}"
                 for letter, unit in (("q", "rad"), *(rate[:2] for rate in RATES))
@@ -117,16 +123,16 @@ def _document(text: str, path: Path) -> Any:
     if path.suffix.lower() == ".json":
         try:
             return json.loads(text)
-        except (json.JSONDecodeError, RecursionError) as error:
-            raise TrajectoryError(f"not JSON: {error}") from None
+        except (ValueError, RecursionError) as error:
+            raise TrajectoryError(f"not JSON: {_shown(str(error))}") from None
     import yaml
 
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         # A dump of a topic may hold several messages; the first is taken.
         return next(iter(yaml.load_all(text, Loader=loader)), None)
-    except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise TrajectoryError(f"not YAML: {' '.join(str(error).split())[:200]}") from None
+    except (yaml.YAMLError, *CONSTRUCTOR_ERRORS) as error:
+        raise TrajectoryError(f"not YAML: {_shown(' '.join(str(error).split()))}") from None
 
 
 def _joint_trajectory(document: Any, joints: int, names: Sequence[str] | None) -> TrajectorySamples:
@@ -162,14 +168,15 @@ def _order(names: Any, joints: int, asked: Sequence[str] | None) -> list[int]:
         raise TrajectoryError(f"{len(names)} joint names; the arm has {joints} joints")
     if asked is not None:
         if sorted(asked) != sorted(names):
-            raise TrajectoryError(f"joint names are {', '.join(names)}; asked for were {', '.join(asked)}")
+            raise TrajectoryError(f"joint names are {_shown(', '.join(names))}; asked for were {', '.join(asked)}")
         return [names.index(joint) for joint in asked]
     stems = [m for name in names if (m := re.fullmatch(r"(.*?)0*([1-9]\d{0,8})(\D*)", name))]
     numbers = [int(m[2]) for m in stems]
     if sorted(numbers) == list(range(1, joints + 1)) and len({(m[1], m[3]) for m in stems}) == 1:
         return sorted(range(joints), key=lambda i: numbers[i])
+    found = _shown(", ".join(names))
     raise TrajectoryError(
-        f"joint names are {', '.join(names)}: which is at the base? Name them, base first: --joints FIRST,SECOND"
+        f"joint names are {found}: which is at the base? Name them, base first: --joints FIRST,SECOND"
         + ",..." * (joints > 2)
     )
 
@@ -193,9 +200,23 @@ def _time(point: Any, index: int) -> float:
 def _values(point: Any, index: int, name: str, joints: int) -> list[float]:
     values = point.get(name)
     try:
+        # Text and mappings can be gone through too, and would give numbers that nobody wrote.
+        if (
+            not isinstance(values, Sequence)
+            or isinstance(values, str | bytes)
+            or any(v is True or v is False for v in values)
+        ):
+            raise TypeError
+        # Numbers such as 1e-3 are text in YAML 1.1.
         numbers = [float(value) for value in values]
     except (TypeError, ValueError, OverflowError):
         raise TrajectoryError(f"point {index + 1} has no list of numbers as {name}") from None
     if len(numbers) != joints:
         raise TrajectoryError(f"point {index + 1} has {len(numbers)} {name} for {joints} joints")
     return numbers
+
+
+def _shown(text: str) -> str:
+    """The text as it can stand in a message of one line."""
+    shown = "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in text[:200])
+    return shown + "..." * (len(text) > 200)

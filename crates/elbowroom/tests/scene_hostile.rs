@@ -1,9 +1,10 @@
 //! Scene files that are damaged or meant to do harm are refused, at little cost.
 
 use std::fmt::Write;
+use std::fs;
 use std::path::Path;
 
-use elbowroom::scene::{Problem, parse};
+use elbowroom::scene::{Location, Problem, parse};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -30,10 +31,15 @@ fn message(text: &str) -> String {
     parse(text, "s.yaml").map(|_| "sound".to_owned()).unwrap_or_else(|error| error.to_string())
 }
 
-/// The text of an example scene.
-fn example(name: &str) -> std::io::Result<String> {
+/// The texts of all example scenes, in the order of their names.
+fn examples() -> std::io::Result<Vec<String>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../python/elbowroom/scenes");
-    std::fs::read_to_string(folder.join(format!("{name}.yaml")))
+    let paths: std::io::Result<Vec<_>> =
+        fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect();
+    let mut paths = paths?;
+    paths.retain(|path| path.extension().is_some_and(|e| e == "yaml"));
+    paths.sort();
+    paths.iter().map(fs::read_to_string).collect()
 }
 
 #[test]
@@ -81,11 +87,9 @@ fn damaged_files_never_do_worse_than_be_refused() {
         "[", "]", "{", "}", ":", "-", "\n", " ", "&a", "*a", "!!t", "\"", "'", "#", ".nan", "1e400", "é",
         "\0", "|", ">", "?", "%", "@", "\t", "\r", "---\n", "\u{feff}", "<<: ",
     ];
-    let texts: Vec<String> = ["narrow", "paper-empty", "paper-standin", "paper-table1", "fanuc-sr-3ia"]
-        .map(|name| example(name).unwrap())
-        .into_iter()
-        .chain([SOUND.to_owned()])
-        .collect();
+    let mut texts = examples().unwrap();
+    assert!(texts.len() > 10, "only {} example scenes", texts.len());
+    texts.push(SOUND.to_owned());
     let (mut refused, mut sound) = (0, 0);
     for round in 0..20_000 {
         let mut text = texts[round % texts.len()].clone().into_bytes();
@@ -118,11 +122,19 @@ fn damaged_files_never_do_worse_than_be_refused() {
                 }
             }
         }
-        match parse(&String::from_utf8_lossy(&text), "s.yaml") {
+        let text = String::from_utf8_lossy(&text);
+        match parse(&text, "s.yaml") {
             Ok(_) => sound += 1,
             Err(error) => {
                 refused += 1;
                 assert!(error.to_string().lines().count() == 1, "{error}");
+                let lines = text.lines().count() + 1;
+                match error.location {
+                    Some(Location { line, column }) => {
+                        assert!((1..=lines).contains(&line) && column >= 1, "{error} of {lines} lines");
+                    }
+                    None => assert_eq!(error.problem, Problem::Empty, "{error}"),
+                }
             }
         }
     }

@@ -13,7 +13,7 @@ from elbowroom.paper.printed import BEND, LINKS, TASKS
 
 if TYPE_CHECKING:
     from elbowroom.free_space import FreeSpace
-    from elbowroom.paper.reproduce import Trial
+    from elbowroom.paper.trial import Trial
 
 Maps = Mapping[str, tuple["FreeSpace", list[Path]]]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 from elbowroom import figures
@@ -11,6 +11,7 @@ from elbowroom.errors import NotFound
 from elbowroom.free_space import FreeSpace, free_space
 from elbowroom.paper.printed import TASKS, PrintedTask
 from elbowroom.paper.report import as_markdown
+from elbowroom.paper.trial import Trial
 from elbowroom.plan import Plan, plan_as_in_paper
 from elbowroom.scene import Scene
 
@@ -18,25 +19,6 @@ SCENES = ("paper-standin", "paper-table1", "paper-empty")
 
 FINER_STEPS = (0.005, 0.002, 0.001)
 """Grids tried where 1 cm finds nothing (m)."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """What one task of one scene gives. ``dstar`` and ``swarm`` are None where no path was found down to the grid
-    ``step`` (m).
-    """
-
-    scene: Scene
-    space: FreeSpace
-    task: PrintedTask
-    step: float
-    steps_without_path: tuple[float, ...]
-    dstar: Plan | None
-    swarm: Plan | None
-    met_optimum: int
-    jumped: int
-    seeds: int
-    pictures: tuple[Path, ...]
 
 
 def reproduce(out: Path, *, seed: int = 0, seeds: int = 100, show: Callable[[str], None] | None = None) -> Path:

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use super::MAX_COORDINATES;
+/// The most coordinates that all particles of a swarm may have together.
+pub const MAX_COORDINATES: usize = 1 << 24;
 
 /// A closed box: one range for each dimension, in whatever unit the objective takes.
 #[derive(Debug, Clone, PartialEq)]

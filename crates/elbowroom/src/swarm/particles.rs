@@ -8,9 +8,6 @@ use rand_core::{Rng, SeedableRng};
 use super::neighbours::{best, ring_bests};
 use super::{Bounds, Neighbourhood, SwarmError, SwarmSettings, Value};
 
-/// The most coordinates that all particles of a swarm may have together.
-pub const MAX_COORDINATES: usize = 1 << 24;
-
 /// What a swarm found.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Minimum<V = f64> {

@@ -7,6 +7,7 @@ mod arm;
 mod error;
 mod grid;
 mod keys;
+mod location;
 mod motion;
 mod node;
 mod obstacles;
@@ -15,9 +16,8 @@ mod tree;
 mod units;
 mod value;
 
-use std::collections::BTreeMap;
-
 pub use error::{Problem, SceneError};
+pub use location::{Location, Locations};
 
 use super::Scene;
 use units::Units;
@@ -25,33 +25,6 @@ use value::{Fault, Value};
 
 /// The version of the format that is read.
 const VERSION: &str = "1";
-
-/// A place in a text; both count from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Location {
-    /// Line.
-    pub line: usize,
-    /// Column, in characters.
-    pub column: usize,
-}
-
-/// Where in a file its tasks say where they begin and end.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Locations {
-    ends: BTreeMap<String, [Location; 2]>,
-}
-
-impl Locations {
-    /// Of the start of the task called `task`.
-    pub fn start(&self, task: &str) -> Option<Location> {
-        self.ends.get(task).map(|ends| ends[0])
-    }
-
-    /// Of the goal of the task called `task`.
-    pub fn goal(&self, task: &str) -> Option<Location> {
-        self.ends.get(task).map(|ends| ends[1])
-    }
-}
 
 /// What a scene file says, and where it says it.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,7 +65,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
             .map_err(|_| version.fault(Problem::Version { found: version.in_words(), read: VERSION }))?;
     }
     let map = root.map(&keys::ROOT)?;
-    let units = Units::read(&map.required("units")?)?;
+    let units = units(&map.required("units")?)?;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;
     let obstacles = match map.optional("obstacles") {
@@ -105,4 +78,15 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
     };
     let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;
     Ok(SceneFile { scene, locations: Locations { ends } })
+}
+
+fn units(value: &Value<'_>) -> Result<Units, Fault> {
+    let map = value.map(&keys::UNITS)?;
+    let per_metre = match map.required("length")?.word(&["m", "cm", "mm"])? {
+        "cm" => 100.0,
+        "mm" => 1000.0,
+        _ => 1.0,
+    };
+    let degrees = map.required("angle")?.word(&["rad", "deg"])? == "deg";
+    Ok(Units { per_metre, degrees })
 }

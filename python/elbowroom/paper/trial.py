@@ -1,0 +1,30 @@
+"""What one task of one scene gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from elbowroom.free_space import FreeSpace
+from elbowroom.paper.printed import PrintedTask
+from elbowroom.plan import Plan
+from elbowroom.scene import Scene
+
+
+@dataclass(frozen=True)
+class Trial:
+    """What one task of one scene gives. ``dstar`` and ``swarm`` are None where no path was found down to the grid
+    ``step`` (m).
+    """
+
+    scene: Scene
+    space: FreeSpace
+    task: PrintedTask
+    step: float
+    steps_without_path: tuple[float, ...]
+    dstar: Plan | None
+    swarm: Plan | None
+    met_optimum: int
+    jumped: int
+    seeds: int
+    pictures: tuple[Path, ...]
