@@ -26,6 +26,11 @@ impl Scene {
         self.scene.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
     }
 
+    /// The name of an obstacle, if it has one.
+    pub(crate) fn obstacle_name(&self, index: usize) -> Option<&str> {
+        self.scene.obstacles.get(index).and_then(|obstacle| obstacle.name.as_deref())
+    }
+
     /// The scene for `what` takes all obstacles to stand still.
     pub(crate) fn still(&self, py: Python<'_>, what: &str) -> PyResult<&scene::Scene<PlanarArm>> {
         let Some(mover) = self.movers.first() else { return Ok(&self.scene) };
