@@ -184,7 +184,7 @@ def test_what_a_plugin_says_of_itself_is_judged_again(scenes: Path) -> None:
     scene = scenes / "paper-standin.yaml"
     other_task = once("elsewhere", scene)
     assert (other_task.safe, other_task.success, other_task.failure) == (True, False, "wrong_end")
-    other_scene = once("elsewhere", scene, seed=1)
+    other_scene = once("elsewhere", scenes / "narrow.yaml", seed=1)
     assert (other_scene.safe, other_scene.success, other_scene.failure) == (False, False, "unsafe")
     assert other_scene.lower_bound is None
     assert "verdict" in other_scene.stages_s
