@@ -64,9 +64,9 @@ def first_accepted_contact(seed: int) -> tuple[World, Floats, er.Check]:
 def picture(seed: int) -> Figure:
     """Return the whole motion, and to scale the post that it passes through first."""
     drawn, corners, check = first_accepted_contact(seed)
-    contacts = [v for v in check.verdict["violations"] if v["kind"] == "contact"]
-    contact = min(contacts, key=lambda v: v["time"])
-    touching = check.motion.sample(np.array([contact["time"]]))[0][0]
+    contacts = [v for v in check.verdict.violations if v.kind == "contact"]
+    contact = min(contacts, key=lambda v: v.time)
+    touching = check.motion.sample(np.array([contact.time]))[0][0]
     checked = checked_states(drawn, corners)
     figure = Figure(figsize=(11, 6.5), layout="constrained")
     whole, near = figure.subplots(1, 2)
@@ -75,12 +75,12 @@ def picture(seed: int) -> Figure:
     for q, colour, label in ((corners[0], START, "start"), (corners[-1], GOAL, "goal"), (touching, CONTACT, "contact")):
         whole.plot(*(MM * arm(q)).T, color=colour, linewidth=2.2, marker="o", markersize=3, label=label)
     whole.plot(*(MM * drawn.centers).T, "o", color=POST, markersize=3, label="posts (enlarged)")
-    hit = drawn.centers[[v["obstacle"] for v in contacts]]
+    hit = drawn.centers[[v.obstacle for v in contacts]]
     whole.plot(*(MM * hit).T, "o", color=CONTACT, markersize=8, fillstyle="none", label="posts the path meets")
     whole.plot([], [], color=CHECKED, linewidth=0.5, label="states OMPL checks")
     _frame(whole, (0.0, 0.0), 510.0)
     whole.set_title(f"OMPL RRTConnect, default resolution: {len(checked)} states checked, all free", fontsize=10)
-    center = MM * drawn.centers[contact["obstacle"]]
+    center = MM * drawn.centers[contact.obstacle]
     for i, q in enumerate(checked):
         near.plot(*(MM * arm(q)).T, color=CHECKED, linewidth=1.2, label=None if i else "states OMPL checks")
     near.plot(*(MM * arm(touching)).T, color=CONTACT, linewidth=1.6, label="the arm at first contact")

@@ -251,13 +251,13 @@ class Row:
 
     def add(self, number: int, world: World, check: er.Check) -> None:
         """Take in a verdict; a contact is confirmed by a state that both OMPL's function and NumPy refuse."""
-        contacts = [v for v in check.verdict["violations"] if v["kind"] == "contact"]
-        kinds = {v["kind"] for v in check.verdict["violations"]}
+        contacts = [v for v in check.verdict.violations if v.kind == "contact"]
+        kinds = {v.kind for v in check.verdict.violations}
         if contacts:
             self.unsafe.add(number)
-            self.posts_met.append(len({v["obstacle"] for v in contacts}))
-            self.worst_depth = max(self.worst_depth, *(v["depth"] for v in contacts))
-            touched = np.add.outer([v["time"] for v in contacts], AFTER).ravel()
+            self.posts_met.append(len({v.obstacle for v in contacts}))
+            self.worst_depth = max(self.worst_depth, *(v.depth for v in contacts))
+            touched = np.add.outer([v.time for v in contacts], AFTER).ravel()
             within = check.motion.sample(np.minimum(touched, check.motion.duration))[0]
             self.unconfirmed += not any(world.clearance(q) <= 0.0 and not world.free(q) for q in within)
         else:

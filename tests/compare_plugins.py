@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 import time
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -51,7 +52,7 @@ def leaves(*_: object, **__: object) -> Proposal:
 def crashes(_scene: er.Scene, _task: str, *, seed: int, **__: object) -> Proposal:
     if seed == 1:
         os._exit(11)
-    raise er.NotFound("nothing here", step=0.01)
+    raise er.NotFound("nothing here")
 
 
 def answers_text(*_: object, **__: object) -> str:
@@ -69,6 +70,24 @@ def straight_through(scene: er.Scene, task: str, **_: object) -> Proposal:
     return straight_turns(scene, path[[0, -1]])
 
 
+def plans_elsewhere(scene: er.Scene, task: str, *, seed: int, **_: object) -> er.Plan:
+    """Returns a plan that is safe in its own scene: of another task, or of a scene without obstacles."""
+    if seed == 0:
+        return er.plan(scene, task=next(name for name in scene.tasks if name != task))
+    return er.plan(replace(scene, obstacles=()), task=task)
+
+
+def lies(scene: er.Scene, task: str, *, seed: int, **_: object) -> Proposal:
+    """Says of itself what only the verifier can say, or claims a bound that its own motion is below."""
+    plan = er.plan(scene, task=task, planner="dstar")
+    if seed == 0:
+        told = straight_turns(scene, plan.configurations[[0, -1]])
+        for name in ("verdict", "safe"):
+            object.__setattr__(told, name, plan.verdict)
+        return told
+    return straight_turns(scene, plan.configurations, lower_bound=9.0)
+
+
 def direct(scene: er.Scene, task: str, *, short: float = 0.0, **_: object) -> Proposal:
     """Turns every joint from start to goal at once, or stops short by so much; for any number of links."""
     start, goal = (np.array(getattr(scene.tasks[task], end).q) for end in ("start", "goal"))
@@ -82,7 +101,7 @@ def goes_on(*_: object, **__: object) -> Proposal:
 
 def says_threads(*_: object, **__: object) -> Proposal:
     names = ("RAYON_NUM_THREADS", "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-    raise er.NotFound(" ".join(os.environ[name] for name in names), step=0.01)
+    raise er.NotFound(" ".join(os.environ[name] for name in names))
 
 
 def refuses(*_: object, **__: object) -> Proposal:

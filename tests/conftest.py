@@ -4,11 +4,9 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.compare import straight_turns
 
 ROOT = Path(__file__).parent.parent
 CIRCLES = ((0.22, 0.22), (-0.08, 0.4), (-0.38, 0.18), (-0.2, -0.42), (0.38, -0.14))
@@ -64,41 +62,10 @@ def chain() -> Callable[..., er.Scene]:
 
 
 @pytest.fixture
-def by_hand() -> Callable[[er.Scene], er.Plan]:
-    """A plan from start to goal of the task ``go`` that no planner made: straight turns through one corner."""
+def planned() -> Callable[[er.Scene], er.Plan]:
+    """The plan for the task ``go`` of a scene, for an arm of any number of links."""
 
     def made(scene: er.Scene) -> er.Plan:
-        task = scene.tasks["go"]
-        assert isinstance(task.start, er.Configuration)
-        assert isinstance(task.goal, er.Configuration)
-        start, goal = np.array(task.start.q), np.array(task.goal.q)
-        middle = (start + goal) / 2.0 + 0.3 * np.sin(np.arange(len(start)))
-        corners = np.array([start, middle, goal])
-        turns = straight_turns(scene, corners)
-        judged = er.check(scene, t=turns.t, q=turns.q, v=turns.v, a=turns.a)
-        tips = scene.core.link_ends(corners)[:, -1]
-        return er.Plan(
-            scene=scene,
-            task="go",
-            planner="by hand",
-            settings={},
-            seed=0,
-            objective="time",
-            cost=judged.motion.duration,
-            path_cost=1.0,
-            lower_bound=None,
-            tip_path=tips,
-            equal_paths=[tips],
-            paths_to_choose_from=1,
-            configurations=corners,
-            postures=[None] * 3,
-            jumps=[],
-            vias=[0, 1, 2],
-            stops=1,
-            assumed_limits=[(j, "jerk", 4.0 * math.pi) for j in range(1, len(start) + 1)],
-            motion=judged.motion,
-            verdict=judged.verdict,
-            timings={},
-        )
+        return er.plan(scene, task="go", objective="time")
 
     return made

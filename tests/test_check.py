@@ -28,37 +28,37 @@ def test_a_contact_is_named_with_its_time_link_obstacle_and_depth(post: er.Scene
     # from the base asin(0.02 / 0.46098) = 0.0434 rad.
     result = er.check(post, t=[0.0, 10.0], q=[[0.0, 0.0], [1.0, 0.0]])
     assert (result.curve, result.safe) == ("linear", False)
-    [contact] = result.verdict["violations"]
-    assert (contact["kind"], contact["link"], contact["obstacle"], contact["name"]) == ("contact", 2, 0, "post")
-    assert contact["time"] == pytest.approx(
+    [contact] = result.verdict.violations
+    assert (contact.kind, contact.link, contact.obstacle, contact.name) == ("contact", 2, 0, "post")
+    assert contact.time == pytest.approx(
         (math.atan2(0.1, 0.45) - math.asin(0.02 / math.hypot(0.45, 0.1))) * 10, abs=1e-6
     )
-    assert contact["depth"] == pytest.approx(0.02, abs=1e-6)
-    assert "link 2" in contact["message"]
+    assert contact.depth == pytest.approx(0.02, abs=1e-6)
+    assert "link 2" in contact.message
 
 
 def test_the_other_way_is_safe_with_its_clearance(post: er.Scene) -> None:
     result = er.check(post, t=[0.0, 10.0], q=[[0.0, 0.0], [-1.0, 0.0]])
     assert result.safe
-    nearest = result.verdict["least_clearance"]
+    nearest = result.verdict.least_clearance
     assert nearest is not None
-    assert nearest["time"] == 0.0
-    assert nearest["distance"] == pytest.approx(0.08, abs=1e-9)
+    assert nearest.time == 0.0
+    assert nearest.distance == pytest.approx(0.08, abs=1e-9)
     assert not er.check(post, t=[0.0, 10.0], q=[[0.0, 0.0], [-1.0, 0.0]], margin=0.09).safe
 
 
 def test_limits_are_judged_by_joint_and_time(post: er.Scene) -> None:
-    beyond = er.check(post, t=[0.0, 10.0], q=[[2.0, 0.0], [2.0, 2.1]]).verdict["violations"]
-    assert [(v["kind"], v["joint"]) for v in beyond] == [("joint_limit", 2)]
-    fast = er.check(post, t=[0.0, 0.1], q=[[2.0, 0.0], [2.0, 1.0]]).verdict["violations"]
-    assert [(v["kind"], v["joint"], v["limit"]) for v in fast] == [("velocity_limit", 2, 3.0)]
+    beyond = er.check(post, t=[0.0, 10.0], q=[[2.0, 0.0], [2.0, 2.1]]).verdict.violations
+    assert [(v.kind, v.joint) for v in beyond] == [("joint_limit", 2)]
+    fast = er.check(post, t=[0.0, 0.1], q=[[2.0, 0.0], [2.0, 1.0]]).verdict.violations
+    assert [(v.kind, v.joint, v.limit) for v in fast] == [("velocity_limit", 2, 3.0)]
 
 
 def test_a_jump_that_its_curve_does_not_allow_is_found(post: er.Scene) -> None:
     t, q = [0.0, 1.0, 2.0], [[2.0, 0.0], [2.5, 0.0], [2.5, 0.5]]
     assert er.check(post, t=t, q=q).safe
     limited = replace(post, arm=replace(post.arm, joints=(er.Joint(continuous=True, acceleration=9.0),) * 2))
-    kinds = {v["kind"] for v in er.check(limited, t=t, q=q).verdict["violations"]}
+    kinds = {v.kind for v in er.check(limited, t=t, q=q).verdict.violations}
     assert kinds == {"velocity_jump"}
     # Cubic with matching velocities: only the acceleration jumps, and nothing limits the jerk.
     cubic = er.check(limited, t=t, q=q, v=[[0.0, 0.0], [0.2, 0.2], [0.0, 0.0]])
@@ -72,11 +72,11 @@ def test_our_own_csv_is_safe_under_all_limits(standin: er.Scene, tmp_path: Path,
     for task in scene.tasks:
         plan = er.plan(scene, task=task, objective=objective)
         assert plan.verdict is not None
-        assert plan.verdict["safe"]
+        assert plan.verdict.safe
         _, table = write_plan(plan, tmp_path)
         again = er.check_file(scene, table)
         assert again.curve == "quintic"
-        assert again.verdict["violations"] == []
+        assert again.verdict.violations == ()
 
 
 def trajectory(**changes: object) -> dict[str, object]:
@@ -166,7 +166,7 @@ def test_a_plan_survives_the_way_through_csv(standin: er.Scene) -> None:
     result = er.check(standin, t=rows[:, 0], q=rows[:, 1:3], v=rows[:, 3:5], a=rows[:, 5:7])
     assert result.safe
     assert plan.verdict is not None
-    mine, theirs = plan.verdict["least_clearance"], result.verdict["least_clearance"]
+    mine, theirs = plan.verdict.least_clearance, result.verdict.least_clearance
     assert mine is not None
     assert theirs is not None
-    assert theirs["distance"] == pytest.approx(mine["distance"], rel=0.01)
+    assert theirs.distance == pytest.approx(mine.distance, rel=0.01)

@@ -3,25 +3,26 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 
 import elbowroom as er
+from elbowroom._core import ASSUMED_LIMITS
 from elbowroom.compare import Row, Table, compare, straight_turns
 from elbowroom.compare.local import run_locally
 from elbowroom.compare.measure import Lengths, lengths, misses
 from elbowroom.compare.row import Problem
 from elbowroom.compare.run import run
-from elbowroom.compare.straight_turns import ASSUMED_LIMITS
 from elbowroom.compare.table import DamagedTable, parquet_is_there, write_parquet
 from elbowroom.compare.worker import Batch
 from elbowroom.own_planners import OWN
@@ -91,7 +92,7 @@ def test_straight_turns_keep_the_limits_and_are_as_fast_as_they_allow(standin: e
         proposal = straight_turns(scene, corners)
         assert len(np.asarray(proposal.t)) == 3
         judged = er.check(scene, t=proposal.t, q=proposal.q, v=proposal.v, a=proposal.a)
-        assert judged.safe, judged.verdict["violations"]
+        assert judged.safe, judged.verdict.violations
         assert lengths(scene, judged.motion).joint == pytest.approx(
             sum(math.dist(a, b) for a, b in pairwise(corners.tolist())), rel=1e-9
         )
@@ -241,9 +242,13 @@ def test_damaged_lines_are_named_or_healed(scenes: Path, tmp_path: Path) -> None
         (b"[" * 100_000 + b"\n", "no JSON"),
         (b"{}\n", "column scene is missing"),
         (lines[1].replace(b'{"scene"', b'{"more": 1, "scene"'), "no such column: more"),
+        (re.sub(rb'"cost": [^,]+', b'"cost": "abc"', lines[1]), "column cost: expected `float | null`, got `str`"),
+        (re.sub(rb'"success": \w+', b'"success": "no"', lines[1]), "column success: expected `bool`, got `str`"),
+        (re.sub(rb'"seed": \d+', b'"seed": 1.5', lines[1]), "column seed: expected `int`, got `float`"),
+        (re.sub(rb'"objective": "tip"', b'"objective": "fun"', lines[1]), "column objective: invalid enum value 'fun'"),
     ):
         path.write_bytes(lines[0] + damage + lines[2])
-        with pytest.raises(DamagedTable, match=f"rows.jsonl:2: .*{words}") as caught:
+        with pytest.raises(DamagedTable, match=f"rows.jsonl:2: .*{re.escape(words)}") as caught:
             Table(path)
         assert caught.value.line == 2
         assert path.read_bytes() == lines[0] + damage + lines[2]
@@ -254,7 +259,9 @@ def test_parquet_holds_the_rows(scenes: Path, tmp_path: Path) -> None:
     import pyarrow.parquet as pq
 
     one, other = once("dstar", scenes / "paper-standin.yaml"), once("dstar", scenes / "paper-table1.yaml")
-    told = replace(one, convergence=[[1, 2.5], [7, 1.5]], evaluations=7, settings={"by": 0.5, "stops": True}, budget=9)
+    told = msgspec.structs.replace(
+        one, convergence=[(1, 2.5), (7, 1.5)], evaluations=7, settings={"by": 0.5, "stops": True}, budget=9
+    )
     rows = [one, other, told]
     read = pq.read_table(write_parquet(rows, tmp_path / "rows.parquet")).to_pylist()
     for values, row in zip(read, rows, strict=True):

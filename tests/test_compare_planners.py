@@ -43,6 +43,8 @@ PLUGINS = {
     "text": "compare_plugins:answers_text",
     "nonsense": "compare_plugins:answers_nonsense",
     "through": "compare_plugins:straight_through",
+    "elsewhere": "compare_plugins:plans_elsewhere",
+    "lies": "compare_plugins:lies",
     "direct": "compare_plugins:direct",
     "goes-on": "compare_plugins:goes_on",
     "threads": "compare_plugins:says_threads",
@@ -175,6 +177,22 @@ def test_what_becomes_of_planners(scenes: Path) -> None:
     assert nowhere.failure == "not_found"
     budgeted = {once("dstar-pso", scene, task="second", seed=1, budget=budget).cost for budget in (1, None)}
     assert len(budgeted) == 2
+
+
+@pytest.mark.usefixtures("plugins")
+def test_what_a_plugin_says_of_itself_is_judged_again(scenes: Path) -> None:
+    scene = scenes / "paper-standin.yaml"
+    other_task = once("elsewhere", scene)
+    assert (other_task.safe, other_task.success, other_task.failure) == (True, False, "wrong_end")
+    other_scene = once("elsewhere", scenes / "narrow.yaml", seed=1)
+    assert (other_scene.safe, other_scene.success, other_scene.failure) == (False, False, "unsafe")
+    assert other_scene.lower_bound is None
+    assert "verdict" in other_scene.stages_s
+    through = once("lies", scene)
+    assert (through.safe, through.success, through.failure) == (False, False, "unsafe")
+    bound = once("lies", scene, seed=1)
+    assert (bound.safe, bound.success, bound.failure, bound.gap) == (True, False, "broken", None)
+    assert "no motion costs less than 9; its own costs" in (bound.message or "")
 
 
 FOUR_LINKS = """\

@@ -5,11 +5,11 @@ import math
 import subprocess
 import sys
 from collections import Counter
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import fields
 from typer.testing import CliRunner
 
 import elbowroom as er

@@ -147,7 +147,7 @@ def test_effect_sizes_are_counts_of_pairs() -> None:
         assert cliffs_delta(a, b) == pytest.approx(sum(pairs) / len(pairs), abs=1e-15)
         assert cliffs_delta(a, b) == -cliffs_delta(b, a)
         wins = sum(1.0 if x > y else 0.5 if x == y else 0.0 for x in a for y in b)
-        assert a12(a, b) == pytest.approx(wins / len(pairs))
+        assert a12(cliffs_delta(a, b)) == pytest.approx(wins / len(pairs))
     assert cliffs_delta([math.inf], [math.inf]) == 0.0
     with pytest.raises(ValueError, match="empty"):
         cliffs_delta([1.0], [])

@@ -40,10 +40,10 @@ def test_the_goal_is_reached_without_contact_in_every_scene(name: str) -> None:
         np.testing.assert_allclose(samples.tip[-1], goal, atol=1e-6)
         np.testing.assert_allclose([samples.v[-1], samples.a[-1]], 0.0, atol=1e-6)
         # Another way to the same clearances: sampled, obstacle by obstacle.
-        least = followed.check.verdict["least_clearance"]
+        least = followed.check.verdict.least_clearance
         assert least is not None
         sampled = min(float(values.min()) for values in clearances(followed).values())
-        assert least["distance"] == pytest.approx(sampled, abs=2e-3)
+        assert least.distance == pytest.approx(sampled, abs=2e-3)
         assert sampled > 0.0
 
 

@@ -20,7 +20,7 @@ from elbowroom.figures.links import capsule, link_colours
 from elbowroom.figures.style import CM, LINK_1, LINK_2
 
 Chain = Callable[..., er.Scene]
-ByHand = Callable[[er.Scene], er.Plan]
+Planned = Callable[[er.Scene], er.Plan]
 
 
 def legends_cover_nothing(figure: Figure) -> bool:
@@ -38,9 +38,9 @@ def legends_cover_nothing(figure: Figure) -> bool:
 
 @pytest.mark.parametrize("links", [2, 3, 5, 10])
 def test_every_picture_is_drawn_and_no_legend_covers_any(
-    chain: Chain, by_hand: ByHand, tmp_path: Path, links: int
+    chain: Chain, planned: Planned, tmp_path: Path, links: int
 ) -> None:
-    plan = by_hand(chain(links))
+    plan = planned(chain(links))
     for figure in (
         figures.tip_path(plan, None),
         figures.smoothed_path(plan),
@@ -60,8 +60,8 @@ def test_every_picture_is_drawn_and_no_legend_covers_any(
 
 
 @pytest.mark.parametrize(("links", "half_width"), [(2, 0.0), (3, 0.0), (3, 0.01), (10, 0.004)])
-def test_stills_are_the_arm_to_scale(chain: Chain, by_hand: ByHand, links: int, half_width: float) -> None:
-    plan = by_hand(chain(links, half_width=half_width))
+def test_stills_are_the_arm_to_scale(chain: Chain, planned: Planned, links: int, half_width: float) -> None:
+    plan = planned(chain(links, half_width=half_width))
     figure = figures.arm_tracking(plan)
     [axes] = figure.axes
     [lines] = [c for c in axes.collections if isinstance(c, LineCollection)]
@@ -101,11 +101,11 @@ def test_shades_show_the_order_and_lines_are_told_apart() -> None:
         assert len(set(joint_lines(joints))) == joints
 
 
-def test_limits_that_joints_share_are_drawn_once(chain: Chain, by_hand: ByHand) -> None:
+def test_limits_that_joints_share_are_drawn_once(chain: Chain, planned: Planned) -> None:
     scene = chain(10)
     fast = replace(scene.arm.joints[4], velocity=3.0)
     joints = (*scene.arm.joints[:4], fast, *scene.arm.joints[5:])
-    figure = figures.joint_curves(by_hand(replace(scene, arm=replace(scene.arm, joints=joints))))
+    figure = figures.joint_curves(planned(replace(scene, arm=replace(scene.arm, joints=joints))))
     labels = [axes.get_legend_handles_labels()[1] for axes in figure.axes]
     assert labels[0] == [*(f"joint {j}" for j in range(1, 11)), "limit of joints 2 to 10"]
     assert labels[1] == [
@@ -115,17 +115,17 @@ def test_limits_that_joints_share_are_drawn_once(chain: Chain, by_hand: ByHand) 
     assert labels[3] == ["limit of joints 1 to 10 (assumed)"]
 
 
-def test_clearance_between_links_is_drawn_where_it_counts(chain: Chain, by_hand: ByHand) -> None:
+def test_clearance_between_links_is_drawn_where_it_counts(chain: Chain, planned: Planned) -> None:
     for links, self_collision in ((2, True), (5, True), (5, False)):
-        [axes] = figures.clearance_curve(by_hand(chain(links, self_collision=self_collision))).axes
+        [axes] = figures.clearance_curve(planned(chain(links, self_collision=self_collision))).axes
         labels = axes.get_legend_handles_labels()[1]
         assert labels[:links] == [f"link {i + 1}" for i in range(links)]
         assert ("between links" in labels) == (links > 2 and self_collision)
 
 
 @pytest.mark.parametrize(("links", "half_width"), [(2, 0.0), (3, 0.01), (10, 0.004)])
-def test_the_animation_moves(chain: Chain, by_hand: ByHand, tmp_path: Path, links: int, half_width: float) -> None:
-    plan = by_hand(chain(links, half_width=half_width))
+def test_the_animation_moves(chain: Chain, planned: Planned, tmp_path: Path, links: int, half_width: float) -> None:
+    plan = planned(chain(links, half_width=half_width))
     with Image.open(figures.animate(plan, tmp_path / "new" / "motion.gif")) as moving:
         assert moving.n_frames == round(plan.motion.duration * 20) + 1  # type: ignore[attr-defined]
         first = np.asarray(moving.convert("RGB"), dtype=int)

@@ -107,8 +107,8 @@ def test_what_makes_no_sense_is_refused(standin: er.Scene) -> None:
 def test_a_verified_plan_is_what_it_says(standin: er.Scene) -> None:
     plan = er.plan(standin, task="first", seed=2)
     assert plan.verdict is not None
-    assert plan.verdict["safe"]
-    assert plan.verdict["violations"] == []
+    assert plan.verdict.safe
+    assert plan.verdict.violations == ()
     samples = plan.at(np.linspace(0.0, plan.motion.duration, 20001))
     travel = np.linalg.norm(np.diff(samples.tip, axis=0), axis=1).sum()
     assert travel == pytest.approx(plan.cost, rel=1e-6)
@@ -147,11 +147,11 @@ def test_options_are_taken_and_told(standin: er.Scene) -> None:
 def test_no_sample_is_nearer_than_the_proved_clearance(standin: er.Scene) -> None:
     plan = er.plan(standin, task="second")
     q = plan.at(np.linspace(0.0, plan.motion.duration, 5001)).q
-    nearest = plan.verdict and plan.verdict["least_clearance"]
+    nearest = plan.verdict and plan.verdict.least_clearance
     assert nearest
     sampled = standin.core.link_clearances(q).min()
-    assert nearest["at_least"] is not None
-    assert nearest["at_least"] <= sampled <= nearest["distance"] + 1e-4
+    assert nearest.at_least is not None
+    assert nearest.at_least <= sampled <= nearest.distance + 1e-4
 
 
 def large(scene: er.Scene) -> er.Scene:

@@ -90,8 +90,8 @@ def by_ruckig(scene: er.Scene, vias: Floats, limits: list[float]) -> Entry:
 def entry(scene: er.Scene, who: str, ms: float, t: Floats, q: Floats, v: Floats) -> Entry:
     """Return the entry of a timed path, judged by our verifier as a controller would run its samples."""
     check = er.check(scene, t=t, q=q, v=v)
-    contacts = [violation for violation in check.verdict["violations"] if violation["kind"] == "contact"]
-    others = sorted({violation["kind"] for violation in check.verdict["violations"]} - {"contact"})
+    contacts = [violation for violation in check.verdict.violations if violation.kind == "contact"]
+    others = sorted({violation.kind for violation in check.verdict.violations} - {"contact"})
     said = f"**meets {len(contacts)} obstacles**" if contacts else "free of contact"
     return Entry(who, ms, f"{t[-1]:.2f} s, {said}{', ' if others else ''}{', '.join(others)}")
 

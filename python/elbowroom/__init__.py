@@ -5,7 +5,19 @@ Lengths are in metres, angles in radians, times in seconds; positions are in the
 
 from importlib.metadata import version
 
-from elbowroom.check import Check, check, check_file
+from elbowroom._core import (
+    Check,
+    Clearance,
+    JointMargin,
+    Motion,
+    MotionMargin,
+    MotionMargins,
+    PaperPlan,
+    Plan,
+    Verdict,
+    Violation,
+)
+from elbowroom.check import check, check_file
 from elbowroom.errors import (
     BadSetting,
     ElbowroomError,
@@ -13,6 +25,7 @@ from elbowroom.errors import (
     NoPath,
     NotFound,
     NotFree,
+    Refuted,
     SceneError,
     TimedOut,
     TrajectoryError,
@@ -20,8 +33,9 @@ from elbowroom.errors import (
 )
 from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
 from elbowroom.known import Known, Sighting
-from elbowroom.plan import Plan, plan, plan_as_in_paper
+from elbowroom.plan import plan, plan_as_in_paper
 from elbowroom.replanner import Replanner, Update
+from elbowroom.samples import Samples
 from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Task
 from elbowroom.world import World
 
@@ -32,6 +46,7 @@ __all__ = [
     "BadSetting",
     "Check",
     "Circle",
+    "Clearance",
     "Configuration",
     "ElbowroomError",
     "FreeSpace",
@@ -39,14 +54,21 @@ __all__ = [
     "Grid",
     "InternalError",
     "Joint",
+    "JointMargin",
     "Known",
+    "Motion",
+    "MotionMargin",
+    "MotionMargins",
     "NoPath",
     "NotFound",
     "NotFree",
     "ObstacleMotion",
+    "PaperPlan",
     "Plan",
     "Polygon",
+    "Refuted",
     "Replanner",
+    "Samples",
     "Scene",
     "SceneError",
     "Sighting",
@@ -55,6 +77,8 @@ __all__ = [
     "TrajectoryError",
     "UnknownTask",
     "Update",
+    "Verdict",
+    "Violation",
     "World",
     "__version__",
     "check",

@@ -3,36 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from elbowroom import _core
+from elbowroom._core import Check
 from elbowroom.errors import TrajectoryError
 from elbowroom.scene import Scene
 from elbowroom.trajectory_files import TrajectorySamples, read_trajectory
-from elbowroom.verdict import Verdict
-
-
-@dataclass(frozen=True, eq=False)
-class Check:
-    """The verifier's answer on a trajectory.
-
-    ``curve`` is what was taken between its rows: ``linear`` for positions alone, ``cubic`` with velocities, ``quintic``
-    with accelerations too. What such curves let jump by their nature, the velocity of a linear one, is held against a
-    joint only if the rate above it is limited.
-    """
-
-    motion: _core.Motion
-    curve: str
-    verdict: Verdict
-
-    @property
-    def safe(self) -> bool:
-        """Whether the trajectory is proved to be safe."""
-        return self.verdict["safe"]
 
 
 def check(
@@ -62,8 +42,7 @@ def check(
     """
     arrays = [None if x is None else np.ascontiguousarray(x, dtype=np.float64) for x in (q, v, a)]
     motion, curve = _core.interpolated(np.ascontiguousarray(t, dtype=np.float64), *arrays)  # type: ignore[arg-type]
-    verdict = _core.verify(scene.core, motion, curve=curve, margin=margin, timeout=timeout)
-    return Check(motion, curve, verdict)
+    return _core.verify(scene, motion, curve=curve, margin=margin, timeout=timeout)
 
 
 def check_file(

@@ -1,26 +1,33 @@
 """What can go wrong, as classes whose attributes carry the numbers. Bad input is also a ``ValueError``."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
-from typing import TypedDict
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Literal, TypedDict
+
+if TYPE_CHECKING:
+    from elbowroom._core import Verdict
 
 
+@dataclass(eq=False, repr=False)
 class ElbowroomError(Exception):
-    """Whatever elbowroom raises on purpose."""
+    """Whatever elbowroom raises on purpose; ``message`` says it in words."""
 
-    def __init__(self, message: str, **fields: object) -> None:
-        super().__init__(message)
-        self._fields = fields
-        for name, value in fields.items():
-            setattr(self, name, value)
+    message: str
+
+    def __post_init__(self) -> None:
+        super().__init__(self.message)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _restored, (type(self), str(self), self._fields)
+        return _restored, (type(self), {field.name: getattr(self, field.name) for field in fields(self)})
 
 
-def _restored(kind: type[ElbowroomError], message: str, fields: dict[str, object]) -> ElbowroomError:
-    return kind(message, **fields)
+def _restored(kind: type[ElbowroomError], said: dict[str, Any]) -> ElbowroomError:
+    return kind(**said)
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class SceneError(ElbowroomError, ValueError):
     """A scene, from a file or built in code, makes no sense.
 
@@ -29,39 +36,24 @@ class SceneError(ElbowroomError, ValueError):
     """
 
     key: str
-    file: str | None
-    line: int | None
-    column: int | None
-
-    def __init__(
-        self,
-        message: str,
-        *,
-        key: str,
-        file: str | None = None,
-        line: int | None = None,
-        column: int | None = None,
-    ) -> None:
-        super().__init__(message, key=key, file=file, line=line, column=column)
+    file: str | None = None
+    line: int | None = None
+    column: int | None = None
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class BadSetting(ElbowroomError, ValueError):
     """A setting of a planner makes no sense; ``setting`` is its name."""
 
     setting: str
 
-    def __init__(self, message: str, *, setting: str) -> None:
-        super().__init__(message, setting=setting)
 
-
+@dataclass(eq=False, repr=False, kw_only=True)
 class UnknownTask(ElbowroomError, ValueError):
     """The scene has no task called ``name``; ``known`` lists those it has."""
 
     name: str
     known: Sequence[str]
-
-    def __init__(self, message: str, *, name: str, known: Sequence[str]) -> None:
-        super().__init__(message, name=name, known=known)
 
 
 class Reason(TypedDict, total=False):
@@ -83,6 +75,7 @@ class Reason(TypedDict, total=False):
     depth: float
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class NotFree(ElbowroomError, ValueError):
     """A task's ``end``, "start" or "goal", is a place where the arm cannot stand.
 
@@ -92,33 +85,13 @@ class NotFree(ElbowroomError, ValueError):
 
     task: str
     end: str
-    tip: tuple[float, float] | None
-    configuration: tuple[float, ...] | None
     reasons: Sequence[Reason]
     nearest_free: tuple[float, float] | None
-
-    def __init__(
-        self,
-        message: str,
-        *,
-        task: str,
-        end: str,
-        reasons: Sequence[Reason],
-        nearest_free: tuple[float, float] | None,
-        tip: tuple[float, float] | None = None,
-        configuration: tuple[float, ...] | None = None,
-    ) -> None:
-        super().__init__(
-            message,
-            task=task,
-            end=end,
-            reasons=reasons,
-            nearest_free=nearest_free,
-            tip=tip,
-            configuration=configuration,
-        )
+    tip: tuple[float, float] | None = None
+    configuration: tuple[float, ...] | None = None
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class NoPath(ElbowroomError):
     """It is proved that no motion does the task.
 
@@ -132,38 +105,33 @@ class NoPath(ElbowroomError):
     starts: Sequence[Sequence[float]]
     goals: Sequence[Sequence[float]]
 
-    def __init__(
-        self,
-        message: str,
-        *,
-        task: str,
-        reachable: Sequence[Sequence[Sequence[float]]],
-        starts: Sequence[Sequence[float]],
-        goals: Sequence[Sequence[float]],
-    ) -> None:
-        super().__init__(message, task=task, reachable=reachable, starts=starts, goals=goals)
 
-
+@dataclass(eq=False, repr=False, kw_only=True)
 class NotFound(ElbowroomError):
     """No path at this resolution or in this budget; it is not proved that there is none.
 
-    ``step`` is the distance between grid points (m) or, for ``optimal``, the least that paths kept from forbidden
-    joint angles (rad); None for planners that have neither.
+    ``resolution`` is the distance between grid points (``unit`` "m") or, for ``optimal``, the least that paths kept
+    from forbidden joint angles ("rad"); both are None for planners that have neither.
     """
 
-    step: float | None
-
-    def __init__(self, message: str, *, step: float | None) -> None:
-        super().__init__(message, step=step)
+    resolution: float | None = None
+    unit: Literal["m", "rad"] | None = None
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class TimedOut(ElbowroomError):
     """The timeout (s) came before a result."""
 
     timeout: float | None
 
-    def __init__(self, message: str, *, timeout: float | None) -> None:
-        super().__init__(message, timeout=timeout)
+
+@dataclass(eq=False, repr=False, kw_only=True)
+class Refuted(ElbowroomError, ValueError):
+    """A plan, check or verdict that was pickled claims what is not so; ``verdict`` is what the verifier says now, None
+    if it is another claim than that of safety.
+    """
+
+    verdict: Verdict | None = None
 
 
 class TrajectoryError(ElbowroomError, ValueError):

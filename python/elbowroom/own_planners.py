@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from elbowroom import _core
 from elbowroom.errors import BadSetting
+from elbowroom.whole import is_whole
 
 OwnOption = int | str
 """A value of an option: a whole number, or one of a few words."""
@@ -38,8 +39,7 @@ def all_options(planner: str, given: Mapping[str, object]) -> dict[str, OwnOptio
         BadSetting: There is no such planner, option or value; names that are not known list those that are.
     """
     for option, value in given.items():
-        whole = isinstance(value, int) and not isinstance(value, bool) and 0 <= value < 2**63
-        if not (whole or isinstance(value, str)):
+        if not (is_whole(value) or isinstance(value, str)):
             message = (
                 f"option {option} of planner {planner} is {value!r}, it must be a whole number from 0 on or a word"
             )

@@ -6,8 +6,9 @@ import json
 from pathlib import Path
 from typing import Any
 
-from elbowroom._core import TICK, __version__
-from elbowroom.plan import Plan, Samples
+from elbowroom._core import TICK, PaperPlan, Plan, __version__
+from elbowroom.plan import AnyPlan
+from elbowroom.samples import Samples
 from elbowroom.trajectory_files import RATES, columns_of
 
 
@@ -17,10 +18,12 @@ def columns(joints: int) -> list[str]:
     return ["time_s", *columns_of(joints), *rates, "x_m", "y_m"]
 
 
-def as_json(plan: Plan) -> dict[str, Any]:
+def as_json(plan: AnyPlan) -> dict[str, Any]:
     """Return ``plan`` as what ``plan.json`` holds."""
     starts, durations = plan.motion.starts.tolist(), plan.motion.durations.tolist()
     coefficients = plan.motion.coefficients.tolist()
+    proved = plan if isinstance(plan, Plan) else None
+    drawn = plan if isinstance(plan, PaperPlan) else None
     return {
         "version": __version__,
         "scene": plan.scene.file,
@@ -36,25 +39,26 @@ def as_json(plan: Plan) -> dict[str, Any]:
         "tip_path": plan.tip_path.tolist(),
         "configurations": plan.configurations.tolist(),
         "postures": plan.postures,
-        "jumps": [{"index": index, "kind": kind} for index, kind in plan.jumps],
+        "jumps": [{"index": index, "kind": kind} for index, kind in (drawn.jumps if drawn is not None else [])],
         "vias": plan.vias,
-        "stops": plan.stops,
+        "stops": proved.stops if proved is not None else 0,
         "assumed_limits": [
-            {"joint": joint, "rate": rate, "value": value} for joint, rate, value in plan.assumed_limits
+            {"joint": joint, "rate": rate, "value": value}
+            for joint, rate, value in (proved.assumed_limits if proved is not None else [])
         ],
         "pieces": [
             {"start": start, "duration": duration, "coefficients": of_joints}
             for start, duration, of_joints in zip(starts, durations, coefficients, strict=True)
         ],
-        "verified": plan.verdict is not None and bool(plan.verdict["safe"]),
-        "verdict": plan.verdict,
-        "evaluations": plan.evaluations,
-        "convergence": None if plan.convergence is None else [list(point) for point in plan.convergence],
+        "verified": proved is not None,
+        "verdict": proved.verdict.as_dict() if proved is not None else None,
+        "evaluations": proved.evaluations if proved is not None else None,
+        "convergence": proved.convergence if proved is not None else None,
         "timings_s": plan.timings,
     }
 
 
-def write_plan(plan: Plan, folder: Path) -> list[Path]:
+def write_plan(plan: AnyPlan, folder: Path) -> list[Path]:
     """Write ``plan.json`` and ``trajectory.csv`` into ``folder``, which is made if need be; return their paths."""
     folder.mkdir(parents=True, exist_ok=True)
     document = folder / "plan.json"
@@ -64,7 +68,7 @@ def write_plan(plan: Plan, folder: Path) -> list[Path]:
     return [document, table]
 
 
-def as_csv(plan: Plan) -> str:
+def as_csv(plan: AnyPlan) -> str:
     """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
     return table(plan.sample(period=TICK))
 

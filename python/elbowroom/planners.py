@@ -14,10 +14,10 @@ from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
 
-from elbowroom._core import __version__
+from elbowroom._core import Plan, __version__
 from elbowroom.errors import BadSetting
 from elbowroom.own_planners import OWN, OwnOption, all_options
-from elbowroom.plan import Objective, Plan
+from elbowroom.plan import Objective
 from elbowroom.plan import plan as own_plan
 from elbowroom.scene import Scene
 

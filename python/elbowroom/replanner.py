@@ -12,11 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from elbowroom import _core
+from elbowroom._core import Verdict
 from elbowroom.errors import BadSetting, NotFree
 from elbowroom.known import Known, all_known
-from elbowroom.plan import Floats, Samples, located, only_task
+from elbowroom.plan import located, only_task
+from elbowroom.samples import Floats, Samples, sampled
 from elbowroom.scene import Scene
-from elbowroom.verdict import Verdict
+from elbowroom.whole import check_whole
 from elbowroom.world import joint_values
 
 Decision = Literal["keep", "new", "stop"]
@@ -46,17 +48,11 @@ class Update:
     @property
     def safe(self) -> bool:
         """Whether what is left of the motion is proved to be safe."""
-        return self.verdict["safe"]
+        return self.verdict.safe
 
     def at(self, t: ArrayLike) -> Samples:
         """Return the motion at the instants ``t``, shape ``(n,)`` (s); beyond its ends the arm stands."""
-        return sampled(self.scene, self.motion, np.atleast_1d(np.asarray(t, dtype=np.float64)))
-
-
-def sampled(scene: Scene, motion: _core.Motion, t: Floats) -> Samples:
-    """Return ``motion`` of the arm of ``scene`` at the instants ``t``, shape ``(n,)`` (s)."""
-    q, v, a, j = motion.sample(np.ascontiguousarray(t))
-    return Samples(t, q, v, a, j, scene.core.link_ends(q))
+        return sampled(self.scene, self.motion, t)
 
 
 class Replanner:
@@ -91,8 +87,7 @@ class Replanner:
     """
 
     def __init__(self, scene: Scene, *, task: str | None = None, seed: int = 0, q: ArrayLike | None = None) -> None:
-        if not 0 <= seed < 2**63:
-            raise BadSetting(f"seed is {seed}, it must be a whole number from 0 on", setting="seed")
+        check_whole("seed", seed)
         if len(scene.arm.links) != 2:
             raise BadSetting(
                 "planning while the arm moves needs an arm of 2 links; the arm of this scene has "

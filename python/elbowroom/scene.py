@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
@@ -156,6 +156,9 @@ class Scene:
         core = _core.Scene(arm=self.arm, grid=self.grid, obstacles=list(self.obstacles), tasks=list(self.tasks.items()))
         object.__setattr__(self, "core", core)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuilt, ({part.name: getattr(self, part.name) for part in fields(self) if part.init},)
+
     @classmethod
     def load(cls, path: str | Path) -> Scene:
         """Return the scene in the YAML file at ``path``; its format is ``schema/scene.schema.json``.
@@ -198,6 +201,10 @@ class Scene:
             file=file,
             locations=located,
         )
+
+
+def _rebuilt(parts: dict[str, Any]) -> Scene:
+    return Scene(**parts)
 
 
 def _obstacle(part: dict[str, Any]) -> Circle | Polygon:

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from elbowroom import _core
 from elbowroom.errors import BadSetting
 from elbowroom.known import Known, Sighting
-from elbowroom.plan import Floats
+from elbowroom.samples import Floats
 from elbowroom.scene import ObstacleMotion, Scene
 
 

@@ -1,15 +1,138 @@
+use std::sync::Arc;
+
 use elbowroom::planners::Monitor;
 use elbowroom::trajectory::{Samples, interpolate};
-use elbowroom::verify::{Quantity, Verdict, VerifySettings, Violation, verify_until};
+use elbowroom::verify::{Quantity, Verdict as Found, VerifySettings, Violation, verify_until};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::PyTuple;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::scene::Scene;
-use crate::verdict;
+use crate::verdict::{Asked, Verdict, core_of};
 use crate::watch;
+
+/// What was taken between the rows of a trajectory, and so what must not jump between the pieces.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Curve {
+    Linear,
+    Cubic,
+    Quintic,
+}
+
+impl Curve {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Cubic => "cubic",
+            Self::Quintic => "quintic",
+        }
+    }
+
+    pub(crate) fn named(py: Python<'_>, name: &str) -> PyResult<Self> {
+        [Self::Linear, Self::Cubic, Self::Quintic].into_iter().find(|curve| curve.name() == name).ok_or_else(
+            || {
+                let message = format!("no curve is called '{name}'; linear, cubic or quintic");
+                errors::setting(py, "curve", &message)
+            },
+        )
+    }
+
+    const fn continuous(self) -> Quantity {
+        match self {
+            Self::Linear => Quantity::Position,
+            Self::Cubic => Quantity::Velocity,
+            Self::Quintic => Quantity::Acceleration,
+        }
+    }
+}
+
+/// The verifier's answer on a trajectory; ``bool(check)`` is whether it is proved to be safe.
+///
+/// The verifier alone makes them. One that is unpickled has been made anew: the trajectory is judged again.
+#[pyclass(frozen, eq, module = "elbowroom._core")]
+pub(crate) struct Check {
+    motion: Py<Motion>,
+    curve: Curve,
+    verdict: Py<Verdict>,
+}
+
+impl PartialEq for Check {
+    fn eq(&self, other: &Self) -> bool {
+        self.curve == other.curve
+            && self.motion.get() == other.motion.get()
+            && self.verdict.get() == other.verdict.get()
+    }
+}
+
+impl Check {
+    /// What `verdict` is about with it; `None` for one that does not know.
+    fn of(py: Python<'_>, verdict: Py<Verdict>) -> PyResult<Option<Self>> {
+        let Some(asked) = verdict.get().asked() else { return Ok(None) };
+        let motion = Py::new(py, Motion::from(Arc::clone(&asked.motion)))?;
+        Ok(Some(Self { motion, curve: asked.curve, verdict }))
+    }
+}
+
+#[pymethods]
+impl Check {
+    /// The trajectory as polynomials.
+    #[getter]
+    fn motion(&self, py: Python<'_>) -> Py<Motion> {
+        self.motion.clone_ref(py)
+    }
+
+    /// What was taken between its rows: ``linear`` for positions alone, ``cubic`` with velocities, ``quintic`` with
+    /// accelerations too. What such curves let jump by their nature, the velocity of a linear one, is held against a
+    /// joint only if the rate above it is limited.
+    #[getter]
+    fn curve(&self) -> &'static str {
+        self.curve.name()
+    }
+
+    /// What the verifier says.
+    #[getter]
+    fn verdict(&self, py: Python<'_>) -> Py<Verdict> {
+        self.verdict.clone_ref(py)
+    }
+
+    /// Whether the trajectory is proved to be safe.
+    #[getter]
+    fn safe(&self) -> bool {
+        self.verdict.get().safe()
+    }
+
+    fn __bool__(&self) -> bool {
+        self.safe()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Check of a {} trajectory: {}>", self.curve.name(), self.verdict.get().in_words())
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let again = py.import("elbowroom._core")?.getattr("check_again")?;
+        (again, (self.verdict.bind(py),)).into_pyobject(py)
+    }
+}
+
+/// Return the check that ``verdict`` is of.
+///
+/// Raises:
+///     BadSetting: It is a replanner's, which does not know what it is about.
+#[pyfunction]
+pub(crate) fn check_again(py: Python<'_>, verdict: Py<Verdict>) -> PyResult<Check> {
+    Check::of(py, verdict)?
+        .ok_or_else(|| errors::setting(py, "verdict", "a replanner's verdict is of no trajectory"))
+}
 
 /// Return the motion through samples, and the curve taken between them: ``linear``, ``cubic`` or ``quintic``.
 ///
@@ -32,21 +155,43 @@ pub(crate) fn interpolated(
     };
     let (motion, curve) =
         interpolate(&samples).map_err(|error| errors::trajectory(py, &error.to_string()))?;
-    Ok((Motion(motion), curve.name()))
+    Ok((motion.into(), curve.name()))
 }
 
-/// Return what the verifier says of ``motion`` in ``scene``; ``curve`` says what must not jump between its pieces.
+/// Return the verifier's answer on ``motion`` in ``scene``; ``curve`` says what must not jump between its pieces.
+///
+/// Raises:
+///     TrajectoryError: It is no motion of this arm.
+///     TimedOut: The timeout came first.
+///     BadSetting: A setting makes no sense.
 #[pyfunction]
 #[pyo3(signature = (scene, motion, *, curve, margin, timeout=None))]
-pub(crate) fn verify<'py>(
-    py: Python<'py>,
-    scene: &Scene,
-    motion: &Motion,
+pub(crate) fn verify(
+    py: Python<'_>,
+    scene: &Bound<'_, PyAny>,
+    motion: Py<Motion>,
     curve: &str,
     margin: f64,
     timeout: Option<f64>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let (joints, moved) = (scene.scene.arm().links(), motion.0.joints());
+) -> PyResult<Check> {
+    let curve = Curve::named(py, curve)?;
+    let verdict = judged(py, scene, motion.get(), curve, margin, timeout)?;
+    Ok(Check { motion, curve, verdict: Py::new(py, verdict)? })
+}
+
+/// The verdict on `motion` in `scene`.
+pub(crate) fn judged(
+    py: Python<'_>,
+    scene: &Bound<'_, PyAny>,
+    motion: &Motion,
+    curve: Curve,
+    margin: f64,
+    timeout: Option<f64>,
+) -> PyResult<Verdict> {
+    let core = core_of(scene)?;
+    let core = core.get();
+    let motion = &motion.motion;
+    let (joints, moved) = (core.scene.arm().links(), motion.joints());
     if joints != moved {
         let message = format!("it moves {moved} joints; the arm of the scene has {joints}");
         return Err(errors::trajectory(py, &message));
@@ -58,22 +203,18 @@ pub(crate) fn verify<'py>(
             &format!("margin is {margin} m, it must be finite and not negative"),
         ));
     }
-    let continuous = match curve {
-        "linear" => Quantity::Position,
-        "cubic" => Quantity::Velocity,
-        _ => Quantity::Acceleration,
-    };
-    let settings = VerifySettings { margin, continuous, ..VerifySettings::default() };
+    let settings = VerifySettings { margin, continuous: curve.continuous(), ..VerifySettings::default() };
     let (found, _) = watch::run(py, timeout, None, |watch| {
-        verify_until(&scene.scene, &motion.0, &settings, &|| watch.keep_going())
+        verify_until(&core.scene, motion, &settings, &|| watch.keep_going())
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));
     }
-    verdict::as_dict(py, &scene.scene, &found)
+    let asked = Asked { scene: scene.clone().unbind(), motion: Arc::clone(motion), curve, margin };
+    Ok(Verdict::new(core, &found, Some(asked)))
 }
 
-fn was_stopped(found: &Verdict) -> bool {
+fn was_stopped(found: &Found) -> bool {
     found.violations.iter().any(|violation| matches!(violation, Violation::Stopped { .. }))
 }
 

@@ -7,6 +7,8 @@ use elbowroom::scene::{Place, SceneError, TwoLinkError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
+use crate::verdict::Verdict;
+
 /// The exception `elbowroom.errors.<class>(message, **fields)`.
 fn exception<'py>(
     py: Python<'py>,
@@ -152,9 +154,7 @@ pub(crate) fn paper(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pa
         PaperError::Duration { .. } => setting(py, "duration", &message),
         PaperError::Start(refused) => not_free(py, task, "start", refused),
         PaperError::Goal(refused) => not_free(py, task, "goal", refused),
-        PaperError::NotFound { step } => {
-            exception(py, "NotFound", &message, |fields| fields.set_item("step", step))
-        }
+        PaperError::NotFound { step } => not_found(py, &message, Some((*step, "m"))),
         PaperError::Stopped => timed_out(py, timeout),
         PaperError::Follow(_) | PaperError::GoalNode(_) | PaperError::Motion(_) => internal(py, &message),
     }
@@ -181,9 +181,8 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::Start(refused) => not_free(py, task, "start", refused),
         PlanError::Goal(refused) => not_free(py, task, "goal", refused),
         PlanError::GoalPosture { .. } => setting(py, "posture", &message),
-        PlanError::NotFound { step: resolution } | PlanError::NotFoundOverJoints { distance: resolution } => {
-            exception(py, "NotFound", &message, |fields| fields.set_item("step", resolution))
-        }
+        PlanError::NotFound { step } => not_found(py, &message, Some((*step, "m"))),
+        PlanError::NotFoundOverJoints { distance } => not_found(py, &message, Some((*distance, "rad"))),
         PlanError::NoPath(proof) => exception(py, "NoPath", &message, |fields| {
             fields.set_item("task", task)?;
             fields.set_item("reachable", &proof.reachable)?;
@@ -194,9 +193,7 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::Moving { .. } => setting(py, "scene", &message),
         PlanError::OtherArm { .. } => setting(py, "planner", &message),
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
-        PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => {
-            exception(py, "NotFound", &message, |fields| fields.set_item("step", py.None()))
-        }
+        PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => not_found(py, &message, None),
         PlanError::Stopped => timed_out(py, timeout),
         PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
     }
@@ -210,6 +207,19 @@ pub(crate) fn replan(py: Python<'_>, what: &str, task: &str, error: &ReplanError
         ReplanError::Routes(refused) => plan(py, task, None, refused),
         other => internal(py, &other.to_string()),
     }
+}
+
+/// Nothing was found, at this resolution and its unit if that is what it was for.
+fn not_found(py: Python<'_>, message: &str, resolution: Option<(f64, &str)>) -> PyErr {
+    exception(py, "NotFound", message, |fields| {
+        fields.set_item("resolution", resolution.map(|(value, _)| value))?;
+        fields.set_item("unit", resolution.map(|(_, unit)| unit))
+    })
+}
+
+/// What was kept of a plan, check or verdict does not hold; with what the verifier says now, if it was asked.
+pub(crate) fn refuted(py: Python<'_>, message: &str, verdict: Option<Py<Verdict>>) -> PyErr {
+    exception(py, "Refuted", message, |fields| fields.set_item("verdict", verdict))
 }
 
 /// Samples or a file that are no trajectory.

@@ -5,20 +5,25 @@ mod check;
 mod errors;
 mod free_space;
 mod motion;
+mod once;
 mod online;
 mod paper;
 mod plan;
+mod plan_kept;
+mod planning;
 mod scene;
 mod scene_parts;
 mod verdict;
+mod verdict_parts;
 mod watch;
+mod words;
 
 use pyo3::prelude::*;
 
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::check::{interpolated, verify};
+    use super::check::{Check, check_again, interpolated, verify};
     #[pymodule_export]
     use super::free_space::{FreeSpace, free_space};
     #[pymodule_export]
@@ -28,15 +33,24 @@ mod _core {
     #[pymodule_export]
     use super::paper::{PaperPlan, plan_as_in_paper};
     #[pymodule_export]
-    use super::plan::{Plan, plan, planner_options, planners_known};
+    use super::plan::Plan;
+    #[pymodule_export]
+    use super::plan_kept::plan_again;
+    #[pymodule_export]
+    use super::planning::{gap, plan, planner_options, planners_known};
     #[pymodule_export]
     use super::scene::{Scene, SceneFile};
+    #[pymodule_export]
+    use super::verdict::{Verdict, verdict_again};
+    #[pymodule_export]
+    use super::verdict_parts::{Clearance, JointMargin, MotionMargin, MotionMargins, Violation};
 
     use pyo3::prelude::*;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("TICK", elbowroom::trajectory::TICK)?;
+        module.add("ASSUMED_LIMITS", super::planning::assumed_limits(module.py())?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

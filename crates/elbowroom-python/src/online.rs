@@ -17,7 +17,7 @@ use crate::errors;
 use crate::motion::Motion;
 use crate::scene::{Scene, motion_parts};
 use crate::scene_parts::KnownPart;
-use crate::verdict;
+use crate::verdict::Verdict;
 use crate::watch;
 
 const WHAT: &str = "planning while the arm moves";
@@ -30,7 +30,7 @@ pub(crate) struct Replanner {
 }
 
 /// The decision's name, the motion that now runs, whether it ends at a goal, and the verifier's verdict on what is left of it.
-type Update<'py> = (&'static str, Motion, bool, Bound<'py, PyDict>);
+type Update = (&'static str, Motion, bool, Verdict);
 
 #[pymethods]
 impl Replanner {
@@ -77,7 +77,7 @@ impl Replanner {
     /// The motion that runs; before its start and after its end the arm stands.
     #[getter]
     fn motion(&self, py: Python<'_>) -> PyResult<Motion> {
-        self.ask(py, |replanner| Motion(replanner.motion().clone()))
+        self.ask(py, |replanner| replanner.motion().clone().into())
     }
 
     /// Whether it ends at a goal.
@@ -103,7 +103,7 @@ impl Replanner {
         v: PyReadonlyArray1<'py, f64>,
         a: PyReadonlyArray1<'py, f64>,
         deadline: Option<f64>,
-    ) -> PyResult<Update<'py>> {
+    ) -> PyResult<Update> {
         let known = known
             .into_iter()
             .map(|(index, part)| known_motion(py, &scene.scene, index, part))
@@ -123,8 +123,8 @@ impl Replanner {
             Decision::Stop(_) => "stop",
             _ => return Err(errors::internal(py, "a decision without a name")),
         };
-        let verdict = verdict::as_dict(py, &scene.scene, &update.verdict)?;
-        Ok((decision, Motion(motion), update.reaches_goal, verdict))
+        let verdict = Verdict::new(scene, &update.verdict, None);
+        Ok((decision, motion.into(), update.reaches_goal, verdict))
     }
 }
 

@@ -1,25 +1,99 @@
 use elbowroom::arm::{Configuration, Posture};
 use elbowroom::path::{JointPath, JumpKind, TipPath};
-use elbowroom::planners::{self, Method, PaperSettings};
+use elbowroom::planners::{self, Method, Objective, PaperSettings};
 use elbowroom::swarm::GuidedSwarmSettings;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::scene::{Scene, points};
-use crate::watch::{self, Timings};
+use crate::plan::{Question, Setting, every, in_order, sampled, unit};
+use crate::scene::points;
+use crate::verdict::{Verdict, core_of};
+use crate::watch;
+use crate::words::short;
 
 /// What the paper's system finds: a path over the union of both postures, and polynomials that nobody verified.
+///
+/// It is here to be compared with, not to be run: ``verdict`` is ``None`` for good.
 #[pyclass(frozen, module = "elbowroom._core")]
 pub(crate) struct PaperPlan {
+    asked: Question,
     plan: planners::PaperPlan,
-    timings: Timings,
+    timings: Vec<(String, f64)>,
+    motion: Py<Motion>,
 }
 
 #[pymethods]
 impl PaperPlan {
+    /// What it was planned in.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
+        self.asked.scene.clone_ref(py)
+    }
+
+    /// The task's name.
+    #[getter]
+    fn task(&self) -> &str {
+        &self.asked.task
+    }
+
+    /// ``dstar-pso`` or ``dstar``.
+    #[getter]
+    fn planner(&self) -> &str {
+        &self.asked.planner
+    }
+
+    /// What was asked of it.
+    #[getter]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.asked.settings(py)
+    }
+
+    /// Of the swarm and of the choice of via points.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.asked.seed
+    }
+
+    /// What it goes by: ``tip``.
+    #[getter]
+    fn objective(&self) -> &'static str {
+        self.asked.objective.name()
+    }
+
+    /// Of ``cost``: ``m``.
+    #[getter]
+    fn cost_unit(&self) -> &'static str {
+        unit(self.asked.objective)
+    }
+
+    /// The same as ``cost`` (m).
+    #[getter]
+    fn path_cost(&self) -> f64 {
+        self.plan.cost
+    }
+
+    /// Nothing is proved of it.
+    #[getter]
+    fn lower_bound(&self) -> Option<f64> {
+        None
+    }
+
+    /// Nothing is proved of it.
+    #[getter]
+    fn gap(&self) -> Option<f64> {
+        None
+    }
+
+    /// It is never verified.
+    #[getter]
+    fn verdict(&self) -> Option<Py<Verdict>> {
+        None
+    }
+
     /// Length of the tip's path over the grid (m): eq. (10).
     #[getter]
     fn cost(&self) -> f64 {
@@ -56,6 +130,12 @@ impl PaperPlan {
         configurations(py, &self.plan.joint_path)
     }
 
+    /// How many different paths of that cost were drawn.
+    #[getter]
+    fn paths_to_choose_from(&self) -> usize {
+        self.plan.equal_paths.len()
+    }
+
     /// The posture at each place: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line.
     #[getter]
     fn postures(&self) -> Vec<Option<&'static str>> {
@@ -80,14 +160,33 @@ impl PaperPlan {
 
     /// Quintic pieces through the via points. Nothing has checked what lies between them.
     #[getter]
-    fn motion(&self) -> Motion {
-        Motion(self.plan.motion.clone())
+    fn motion(&self, py: Python<'_>) -> Py<Motion> {
+        self.motion.clone_ref(py)
     }
 
     /// Seconds spent in each stage, in order.
     #[getter]
-    fn timings(&self) -> Timings {
-        self.timings.clone()
+    fn timings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        in_order(py, &self.timings)
+    }
+
+    /// Return the motion every ``period`` (s), both ends included.
+    ///
+    /// Raises:
+    ///     BadSetting: The period is not finite, or not greater than 0.
+    #[pyo3(signature = (*, period=0.01))]
+    fn sample<'py>(&self, py: Python<'py>, period: f64) -> PyResult<Bound<'py, PyAny>> {
+        every(py, &self.asked.scene, &self.motion, period)
+    }
+
+    /// Return the motion at the instants ``t``, shape ``(n,)`` (s).
+    fn at<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        sampled(py, &self.asked.scene, &self.motion, t)
+    }
+
+    fn __repr__(&self) -> String {
+        let (cost, task) = (short(self.plan.cost), &self.asked.task);
+        format!("<PaperPlan of task '{task}' by {}: cost {cost} m, not verified>", self.asked.planner)
     }
 }
 
@@ -104,7 +203,7 @@ impl PaperPlan {
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan_as_in_paper(
     py: Python<'_>,
-    scene: &Scene,
+    scene: &Bound<'_, PyAny>,
     task: &str,
     swarm: bool,
     seed: u64,
@@ -114,25 +213,44 @@ pub(crate) fn plan_as_in_paper(
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PaperPlan> {
-    let asked = scene.task(py, task)?;
+    let core = core_of(scene)?;
+    let core = core.get();
+    let asked = core.task(py, task)?;
     let method = if swarm {
         Method::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
     } else {
         Method::Dstar
     };
     let settings = PaperSettings { method, seed, vias, duration };
-    let work = |watch: &watch::Watch| planners::plan_as_in_paper(&scene.scene, asked, &settings, watch);
+    let work = |watch: &watch::Watch| planners::plan_as_in_paper(&core.scene, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::paper(py, task, timeout, &error))?;
-    Ok(PaperPlan { plan, timings })
+    let mut settings = vec![
+        ("mode".to_owned(), Setting::Word("paper".to_owned())),
+        ("vias".to_owned(), Setting::Count(vias)),
+        ("duration".to_owned(), Setting::Number(duration)),
+    ];
+    if swarm {
+        settings.push(("candidates".to_owned(), Setting::Count(candidates)));
+    }
+    let question = Question {
+        scene: scene.clone().unbind(),
+        task: task.to_owned(),
+        planner: if swarm { "dstar-pso" } else { "dstar" }.to_owned(),
+        settings,
+        seed,
+        objective: Objective::Tip,
+    };
+    let motion = Py::new(py, Motion::from(plan.motion.clone()))?;
+    Ok(PaperPlan { asked: question, plan, timings: watch::told(timings), motion })
 }
 
-pub(crate) fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<f64>> {
+fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<f64>> {
     points(py, path.0.iter().map(|p| [p.x, p.y]))
 }
 
 /// An array of shape (n, joints).
-pub(crate) fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
+fn configurations<'py>(py: Python<'py>, path: &JointPath) -> Bound<'py, PyArray2<f64>> {
     let joints = path.0.first().map_or(0, |q| q.len());
     Array2::from_shape_fn((path.0.len(), joints), |(i, j)| path.0[i][j]).into_pyarray(py)
 }

@@ -1,34 +1,175 @@
-use elbowroom::planners::{self, Objective, OptionValue, Pace, PlanSettings, Planner};
+//! A plan as Python shows it.
+
+use elbowroom::planners::{self, Objective};
 use numpy::PyArray2;
+use numpy::ndarray::Array2;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
-use crate::errors;
+use crate::check::Curve;
 use crate::motion::Motion;
-use crate::paper::{configurations, postures, tips};
-use crate::scene::Scene;
-use crate::verdict;
-use crate::watch::{self, Timings};
+use crate::once::Once;
+use crate::plan_kept;
+use crate::verdict::{Asked, Verdict, core_of};
+use crate::words::short;
 
-/// What a planner found: a motion that is proved to be safe. There is no other way to make one.
-#[pyclass(frozen, module = "elbowroom._core")]
+/// What a planner found for a task: a motion that is proved to be safe in its scene, and how it came to be.
+///
+/// Planners alone make plans. One that is unpickled has had its motion judged again; the path it was made from and its lower
+/// bound are as they were kept. Plans are equal if all but their timings is.
+/// Arrays cannot be written to.
+#[pyclass(frozen, eq, module = "elbowroom._core")]
 pub(crate) struct Plan {
-    plan: planners::Plan,
-    timings: Timings,
+    pub(crate) asked: Question,
+    pub(crate) plan: planners::Plan,
+    pub(crate) timings: Vec<(String, f64)>,
+    motion: Py<Motion>,
+    verdict: Py<Verdict>,
+    tip_path: Once<PyArray2<f64>>,
+    configurations: Once<PyArray2<f64>>,
+}
+
+/// What a planner was asked.
+pub(crate) struct Question {
+    pub(crate) scene: Py<PyAny>,
+    pub(crate) task: String,
+    pub(crate) planner: String,
+    pub(crate) settings: Vec<(String, Setting)>,
+    pub(crate) seed: u64,
+    pub(crate) objective: Objective,
+}
+
+/// The value of a setting.
+#[derive(Clone, PartialEq, FromPyObject, IntoPyObject)]
+pub(crate) enum Setting {
+    Count(usize),
+    Number(f64),
+    Word(String),
+}
+
+impl Question {
+    /// The settings as a dictionary.
+    pub(crate) fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let settings = PyDict::new(py);
+        for (name, value) in &self.settings {
+            settings.set_item(name, value.clone())?;
+        }
+        Ok(settings)
+    }
+
+    /// Whether all but the scene is the same.
+    fn same_but_scene(&self, other: &Self) -> bool {
+        (&self.task, &self.planner, self.seed, self.objective)
+            == (&other.task, &other.planner, other.seed, other.objective)
+            && self.settings == other.settings
+    }
+}
+
+/// What an objective is measured in.
+pub(crate) const fn unit(objective: Objective) -> &'static str {
+    match objective {
+        Objective::Tip => "m",
+        Objective::Joint => "rad",
+        Objective::Time => "s",
+    }
+}
+
+impl Plan {
+    pub(crate) fn new(
+        py: Python<'_>,
+        asked: Question,
+        plan: planners::Plan,
+        timings: Vec<(String, f64)>,
+    ) -> PyResult<Self> {
+        let core = core_of(asked.scene.bind(py))?;
+        let motion = Motion::from(plan.trajectory.motion().clone());
+        let judged = Asked {
+            scene: asked.scene.clone_ref(py),
+            motion: motion.motion.clone(),
+            curve: Curve::Quintic,
+            margin: 0.0,
+        };
+        let verdict = Verdict::new(core.get(), plan.trajectory.verdict(), Some(judged));
+        Ok(Self {
+            asked,
+            plan,
+            timings,
+            motion: Py::new(py, motion)?,
+            verdict: Py::new(py, verdict)?,
+            tip_path: Once::new(),
+            configurations: Once::new(),
+        })
+    }
+}
+
+impl PartialEq for Plan {
+    fn eq(&self, other: &Self) -> bool {
+        self.plan == other.plan
+            && self.asked.same_but_scene(&other.asked)
+            && Python::attach(|py| self.asked.scene.bind(py).eq(&other.asked.scene).unwrap_or(false))
+    }
 }
 
 #[pymethods]
 impl Plan {
-    /// What the motion costs in terms of the objective: metres, radians or seconds.
+    /// What it was planned in.
+    #[getter]
+    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
+        self.asked.scene.clone_ref(py)
+    }
+
+    /// The task's name.
+    #[getter]
+    fn task(&self) -> &str {
+        &self.asked.task
+    }
+
+    /// The planner's name.
+    #[getter]
+    fn planner(&self) -> &str {
+        &self.asked.planner
+    }
+
+    /// What was asked of the planner: the pace, and all its options.
+    #[getter]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.asked.settings(py)
+    }
+
+    /// Of the swarm.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.asked.seed
+    }
+
+    /// What the choice went by: ``tip``, ``joint`` or ``time``.
+    #[getter]
+    fn objective(&self) -> &'static str {
+        self.asked.objective.name()
+    }
+
+    /// What the motion costs in terms of the objective, in ``cost_unit``.
     #[getter]
     fn cost(&self) -> f64 {
         self.plan.cost
+    }
+
+    /// Of ``cost`` and ``lower_bound``: ``m`` of tip travel, ``rad`` of joint travel, or ``s``.
+    #[getter]
+    fn cost_unit(&self) -> &'static str {
+        unit(self.asked.objective)
     }
 
     /// No motion costs less than this; ``None`` where nothing could be proved.
     #[getter]
     fn lower_bound(&self) -> Option<f64> {
         self.plan.lower_bound
+    }
+
+    /// By which share of ``lower_bound`` the cost is above it: no motion is better by more; ``None`` where unknown.
+    #[getter]
+    fn gap(&self) -> Option<f64> {
+        self.plan.gap()
     }
 
     /// Tip travel along the path that the motion was made from (m).
@@ -46,19 +187,27 @@ impl Plan {
     /// Where the tip is at each configuration, shape ``(n, 2)`` (m).
     #[getter]
     fn tip_path<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        tips(py, &self.plan.tip_path)
+        let points = &self.plan.tip_path.0;
+        self.tip_path.get(py, || {
+            Array2::from_shape_fn(
+                (points.len(), 2),
+                |(i, axis)| if axis == 0 { points[i].x } else { points[i].y },
+            )
+        })
     }
 
     /// Configurations from start to goal, shape ``(n, joints)`` (rad); the straight turns between them are certified free.
     #[getter]
     fn configurations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        configurations(py, &self.plan.joint_path)
+        let path = &self.plan.joint_path.0;
+        let joints = self.plan.trajectory.motion().joints();
+        self.configurations.get(py, || Array2::from_shape_fn((path.len(), joints), |(i, j)| path[i][j]))
     }
 
     /// The posture at each: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line or more links than two.
     #[getter]
     fn postures(&self) -> Vec<Option<&'static str>> {
-        postures(&self.plan.joint_path)
+        crate::paper::postures(&self.plan.joint_path)
     }
 
     /// Places of the path that the motion is led through, by their index.
@@ -73,133 +222,106 @@ impl Plan {
         self.plan.stops
     }
 
-    /// The polynomials, proved to be safe.
-    #[getter]
-    fn motion(&self) -> Motion {
-        Motion(self.plan.trajectory.motion().clone())
-    }
-
-    /// Motion limits the scene does not state, and what was taken in their place: joint, rate, value.
+    /// Motion limits the scene does not state, and what was taken in their place: joint, rate, value (rad/s, rad/s²,
+    /// rad/s³).
     #[getter]
     fn assumed_limits(&self) -> Vec<(usize, &'static str, f64)> {
         self.plan.assumed_limits.iter().map(|limit| (limit.joint, limit.rate, limit.value)).collect()
     }
 
-    /// How many candidates were judged, and the best cost after how many each time it fell; ``None`` if not counted.
+    /// The polynomials, proved to be safe.
     #[getter]
-    fn effort(&self) -> Option<(usize, Vec<(usize, f64)>)> {
-        self.plan.effort.as_ref().map(|effort| (effort.evaluations, effort.convergence.clone()))
+    fn motion(&self, py: Python<'_>) -> Py<Motion> {
+        self.motion.clone_ref(py)
+    }
+
+    /// What the verifier says of the motion.
+    #[getter]
+    fn verdict(&self, py: Python<'_>) -> Py<Verdict> {
+        self.verdict.clone_ref(py)
     }
 
     /// Seconds spent in each stage, in order.
     #[getter]
-    fn timings(&self) -> Timings {
-        self.timings.clone()
+    fn timings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        in_order(py, &self.timings)
     }
 
-    /// Return the verifier's verdict; ``scene`` names the obstacles.
-    fn verdict<'py>(&self, py: Python<'py>, scene: &Scene) -> PyResult<Bound<'py, PyDict>> {
-        verdict::as_dict(py, &scene.scene, self.plan.trajectory.verdict())
+    /// How many candidates the planner judged; ``None`` if it does not count them.
+    #[getter]
+    fn evaluations(&self) -> Option<usize> {
+        self.plan.effort.as_ref().map(|effort| effort.evaluations)
+    }
+
+    /// Evaluations made, and the best cost by then, each time that fell; ``None`` if it does not count them.
+    #[getter]
+    fn convergence(&self) -> Option<Vec<(usize, f64)>> {
+        self.plan.effort.as_ref().map(|effort| effort.convergence.clone())
+    }
+
+    /// Return the motion every ``period`` (s), both ends included.
+    ///
+    /// Raises:
+    ///     BadSetting: The period is not finite, or not greater than 0.
+    #[pyo3(signature = (*, period=0.01))]
+    fn sample<'py>(&self, py: Python<'py>, period: f64) -> PyResult<Bound<'py, PyAny>> {
+        every(py, &self.asked.scene, &self.motion, period)
+    }
+
+    /// Return the motion at the instants ``t``, shape ``(n,)`` (s).
+    fn at<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        sampled(py, &self.asked.scene, &self.motion, t)
+    }
+
+    fn __repr__(&self) -> String {
+        let gap = self.plan.gap().map_or_else(String::new, |gap| format!(", gap {} %", short(100.0 * gap)));
+        let (cost, unit) = (short(self.plan.cost), self.cost_unit());
+        let (duration, verdict) =
+            (short(self.plan.trajectory.motion().duration()), self.verdict.get().in_words());
+        let (task, planner) = (&self.asked.task, &self.asked.planner);
+        format!("<Plan of task '{task}' by {planner}: cost {cost} {unit}{gap}, {duration} s, {verdict}>")
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let again = py.import("elbowroom._core")?.getattr("plan_again")?;
+        let told = (self.asked.scene.bind(py), self.motion.bind(py), plan_kept::Kept::of(self));
+        (again, told).into_pyobject(py)
     }
 }
 
-/// The value of a planner's option as Python has it.
-#[derive(FromPyObject)]
-pub(crate) enum OptionPart {
-    Count(usize),
-    Word(String),
-}
-
-impl From<OptionPart> for OptionValue {
-    fn from(part: OptionPart) -> Self {
-        match part {
-            OptionPart::Count(count) => Self::Count(count),
-            OptionPart::Word(word) => Self::Word(word),
-        }
+/// Seconds by stage as a dictionary.
+pub(crate) fn in_order<'py>(py: Python<'py>, timings: &[(String, f64)]) -> PyResult<Bound<'py, PyDict>> {
+    let stages = PyDict::new(py);
+    for (stage, seconds) in timings {
+        stages.set_item(stage, seconds)?;
     }
+    Ok(stages)
 }
 
-/// A planner's name, its options with their defaults, and which of them is its budget, if any.
-type Known<'py> = (&'static str, Bound<'py, PyDict>, Option<&'static str>);
-
-/// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
-#[pyfunction]
-pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
-    let known = |planner: &Planner| Ok((planner.name(), options_of(py, planner)?, planner.budget()));
-    Planner::all().iter().map(known).collect()
-}
-
-/// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.
-///
-/// Raises:
-///     BadSetting: There is no such planner, option or value.
-#[pyfunction]
-pub(crate) fn planner_options<'py>(
+/// `elbowroom.samples.sampled`.
+pub(crate) fn sampled<'py>(
     py: Python<'py>,
-    planner: &str,
-    options: Vec<(String, OptionPart)>,
-) -> PyResult<Bound<'py, PyDict>> {
-    options_of(py, &by_name(py, planner, options)?)
+    scene: &Py<PyAny>,
+    motion: &Py<Motion>,
+    t: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("elbowroom.samples")?.getattr("sampled")?.call1((scene, motion, t))
 }
 
-fn options_of<'py>(py: Python<'py>, planner: &Planner) -> PyResult<Bound<'py, PyDict>> {
-    let options = PyDict::new(py);
-    for (name, value) in planner.options() {
-        match value {
-            OptionValue::Count(count) => options.set_item(name, count)?,
-            OptionValue::Word(word) => options.set_item(name, word)?,
-        }
-    }
-    Ok(options)
-}
-
-fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) -> PyResult<Planner> {
-    let options: Vec<(String, OptionValue)> =
-        options.into_iter().map(|(name, value)| (name, value.into())).collect();
-    Planner::by_name(planner, &options).map_err(|error| errors::setting(py, "planner", &error.to_string()))
-}
-
-/// Return a plan for the task called ``task``.
-///
-/// Raises:
-///     UnknownTask: The scene has no such task.
-///     NotFree: Start or goal is not free.
-///     NoPath: It is proved that no motion does the task.
-///     NotFound: The certified edges do not connect them.
-///     TimedOut: The timeout came first.
-///     BadSetting: A setting makes no sense, or the duration is too short.
-#[pyfunction]
-#[pyo3(signature = (scene, task, *, planner, objective, seed, options, duration=None, gap=None, timeout=None, on_stage=None))]
-#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
-pub(crate) fn plan(
-    py: Python<'_>,
-    scene: &Scene,
-    task: &str,
-    planner: &str,
-    objective: &str,
-    seed: u64,
-    options: Vec<(String, OptionPart)>,
-    duration: Option<f64>,
-    gap: Option<f64>,
-    timeout: Option<f64>,
-    on_stage: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Plan> {
-    let asked = scene.task(py, task)?;
-    let objective = [Objective::Tip, Objective::Joint, Objective::Time]
-        .into_iter()
-        .find(|known| known.name() == objective)
-        .ok_or_else(|| {
-            errors::setting(
-                py,
-                "objective",
-                &format!("no objective is called '{objective}'; tip, joint or time"),
-            )
-        })?;
-    let planner = by_name(py, planner, options)?;
-    let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let settings = PlanSettings { objective, pace, seed, gap };
-    let work = |watch: &watch::Watch| planners::plan(&scene.scene, asked, &planner, &settings, watch);
-    let (result, timings) = watch::run(py, timeout, on_stage, work)?;
-    let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
-    Ok(Plan { plan, timings })
+/// `elbowroom.samples.every`.
+pub(crate) fn every<'py>(
+    py: Python<'py>,
+    scene: &Py<PyAny>,
+    motion: &Py<Motion>,
+    period: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    py.import("elbowroom.samples")?.getattr("every")?.call1((scene, motion, period))
 }

@@ -29,6 +29,11 @@ impl Scene {
         self.scene.two_link().map_err(|error| errors::two_link(py, what, &error))
     }
 
+    /// The name of an obstacle, if it has one.
+    pub(crate) fn obstacle_name(&self, index: usize) -> Option<&str> {
+        self.scene.obstacles().get(index).and_then(|obstacle| obstacle.name.as_deref())
+    }
+
     /// Refuses an arm of other than two links, for `what` serves obstacles that move too.
     pub(crate) fn check_links(&self, py: Python<'_>, what: &str) -> PyResult<()> {
         match self.scene.arm().links() {

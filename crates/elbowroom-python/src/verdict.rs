@@ -1,111 +1,206 @@
-//! A verdict as plain data.
+//! What the verifier says of a motion.
 
-use elbowroom::scene::Scene;
-use elbowroom::verify::{Against, FLOOR, MotionMargin, Verdict, Violation};
+use std::sync::Arc;
+
+use elbowroom::trajectory;
+use elbowroom::verify::{self, FLOOR};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::{PyDict, PyList, PyTuple};
 
-pub(crate) fn as_dict<'py>(
-    py: Python<'py>,
-    scene: &Scene,
-    verdict: &Verdict,
-) -> PyResult<Bound<'py, PyDict>> {
-    let fields = PyDict::new(py);
-    fields.set_item("safe", verdict.is_safe())?;
-    let violations = PyList::empty(py);
-    for violation in &verdict.violations {
-        violations.append(violation_fields(py, scene, violation)?)?;
-    }
-    fields.set_item("violations", violations)?;
-    fields.set_item("floor", FLOOR)?;
-    let clearance = verdict.least_clearance.map(|least| -> PyResult<_> {
-        let part = PyDict::new(py);
-        part.set_item("distance", least.distance)?;
-        part.set_item("at_least", least.at_least)?;
-        part.set_item("time", least.time)?;
-        part.set_item("link", least.link)?;
-        set_against(&part, scene, least.against)?;
-        Ok(part)
-    });
-    fields.set_item("least_clearance", clearance.transpose()?)?;
-    let stops =
-        verdict.joint_margins.iter().map(|margin| margin.map(|margin| (margin.distance, margin.time)));
-    fields.set_item("joint_margins", stops.collect::<Vec<_>>())?;
-    let motion = PyList::empty(py);
-    for margins in &verdict.motion_margins {
-        let part = PyDict::new(py);
-        part.set_item("velocity", margin_fields(py, &margins.velocity)?)?;
-        part.set_item("acceleration", margin_fields(py, &margins.acceleration)?)?;
-        part.set_item("jerk", margin_fields(py, &margins.jerk)?)?;
-        motion.append(part)?;
-    }
-    fields.set_item("motion_margins", motion)?;
-    fields.set_item("posture_changes", &verdict.posture_changes)?;
-    Ok(fields)
+use crate::check::{self, Curve};
+use crate::errors;
+use crate::motion::Motion;
+use crate::scene::{self, Scene};
+use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
+use crate::words::short;
+
+/// What the verifier says of a motion. ``safe`` is a proof; ``bool(verdict)`` is the same.
+///
+/// The verifier alone makes verdicts. One that is unpickled has been made anew: the motion is judged again.
+#[pyclass(frozen, eq, module = "elbowroom._core")]
+pub(crate) struct Verdict {
+    found: Found,
+    /// What was judged; unknown of a replanner's, which is on what was left of a motion among obstacles as they were known.
+    asked: Option<Asked>,
 }
 
-fn margin_fields<'py>(py: Python<'py>, margin: &MotionMargin) -> PyResult<Bound<'py, PyDict>> {
-    let part = PyDict::new(py);
-    part.set_item("largest", margin.largest)?;
-    part.set_item("time", margin.time)?;
-    part.set_item("limit", margin.limit)?;
-    Ok(part)
+#[derive(PartialEq)]
+struct Found {
+    violations: Vec<Violation>,
+    least_clearance: Option<Clearance>,
+    joint_margins: Vec<Option<JointMargin>>,
+    motion_margins: Vec<MotionMargins>,
+    posture_changes: Vec<f64>,
 }
 
-fn violation_fields<'py>(
-    py: Python<'py>,
-    scene: &Scene,
-    violation: &Violation,
-) -> PyResult<Bound<'py, PyDict>> {
-    let part = PyDict::new(py);
-    part.set_item("time", violation.time())?;
-    part.set_item("message", violation.to_string())?;
-    match *violation {
-        Violation::Contact { link, against, depth, .. } => {
-            part.set_item("kind", "contact")?;
-            part.set_item("link", link)?;
-            set_against(&part, scene, against)?;
-            part.set_item("depth", depth)?;
-        }
-        Violation::Undecided { link, against, .. } => {
-            part.set_item("kind", "undecided")?;
-            part.set_item("link", link)?;
-            set_against(&part, scene, against)?;
-        }
-        Violation::JointLimit { joint, angle, limit, .. } => {
-            part.set_item("kind", "joint_limit")?;
-            part.set_item("joint", joint)?;
-            part.set_item("value", angle)?;
-            part.set_item("limit", limit)?;
-        }
-        Violation::MotionLimit { joint, rate, value, limit, .. } => {
-            part.set_item("kind", format!("{}_limit", rate.name()))?;
-            part.set_item("joint", joint)?;
-            part.set_item("value", value)?;
-            part.set_item("limit", limit)?;
-        }
-        Violation::Discontinuity { joint, what, jump, .. } => {
-            part.set_item("kind", format!("{}_jump", what.name()))?;
-            part.set_item("joint", joint)?;
-            part.set_item("value", jump)?;
-        }
-        Violation::OtherArm { .. } => part.set_item("kind", "other_arm")?,
-        Violation::TooLarge { joint, .. } => {
-            part.set_item("kind", "too_large")?;
-            part.set_item("joint", joint)?;
-        }
-        Violation::Stopped { .. } => part.set_item("kind", "stopped")?,
-    }
-    Ok(part)
+/// A motion to be judged, in what Python holds as a scene.
+pub(crate) struct Asked {
+    pub(crate) scene: Py<PyAny>,
+    pub(crate) motion: Arc<trajectory::Motion>,
+    pub(crate) curve: Curve,
+    /// Clearance to keep (m).
+    pub(crate) margin: f64,
 }
 
-/// The obstacle and its name, or the other link.
-fn set_against(part: &Bound<'_, PyDict>, scene: &Scene, against: Against) -> PyResult<()> {
-    match against {
-        Against::Obstacle(obstacle) => {
-            part.set_item("obstacle", obstacle)?;
-            part.set_item("name", scene.obstacles().get(obstacle).and_then(|o| o.name.as_deref()))
-        }
-        Against::Link(link) => part.set_item("other_link", link),
+/// Verdicts are equal if they say the same.
+impl PartialEq for Verdict {
+    fn eq(&self, other: &Self) -> bool {
+        self.found == other.found
     }
+}
+
+impl Verdict {
+    pub(crate) fn new(scene: &Scene, verdict: &verify::Verdict, asked: Option<Asked>) -> Self {
+        let found = Found {
+            violations: verdict.violations.iter().map(|violation| Violation::of(scene, violation)).collect(),
+            least_clearance: verdict.least_clearance.map(|least| Clearance::of(scene, &least)),
+            joint_margins: verdict.joint_margins.iter().map(|m| m.as_ref().map(JointMargin::of)).collect(),
+            motion_margins: verdict.motion_margins.iter().map(MotionMargins::of).collect(),
+            posture_changes: verdict.posture_changes.clone(),
+        };
+        Self { found, asked }
+    }
+
+    pub(crate) fn asked(&self) -> Option<&Asked> {
+        self.asked.as_ref()
+    }
+
+    /// ``safe``, and how near or why not.
+    pub(crate) fn in_words(&self) -> String {
+        match (self.found.violations.as_slice(), &self.found.least_clearance) {
+            ([], Some(least)) => format!("safe, least clearance {} mm", short(least.distance() * 1e3)),
+            ([], None) => "safe".to_owned(),
+            ([first, rest @ ..], _) => {
+                let more = if rest.is_empty() { String::new() } else { format!(", {} more", rest.len()) };
+                format!("not safe: {} at {} s{more}", first.kind(), short(first.time()))
+            }
+        }
+    }
+}
+
+#[pymethods]
+impl Verdict {
+    /// Whether the motion is proved to be safe, down to a clearance of ``floor``.
+    #[getter]
+    pub(crate) fn safe(&self) -> bool {
+        self.found.violations.is_empty()
+    }
+
+    /// Why it is not safe, in order of time; empty if it is.
+    #[getter]
+    fn violations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.found.violations.iter().cloned())
+    }
+
+    /// Clearance that a safe motion has more of, whatever was asked for (m).
+    #[getter]
+    fn floor(&self) -> f64 {
+        FLOOR
+    }
+
+    /// The nearest that a link comes to what it must not touch; ``None`` where there is nothing of the kind.
+    #[getter]
+    fn least_clearance(&self) -> Option<Clearance> {
+        self.found.least_clearance.clone()
+    }
+
+    /// How near each joint comes to its stops, base first; ``None`` for a joint without stops.
+    #[getter]
+    fn joint_margins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.found.joint_margins.iter().cloned())
+    }
+
+    /// The greatest velocity, acceleration and jerk of each joint, base first.
+    #[getter]
+    fn motion_margins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.found.motion_margins.iter().cloned())
+    }
+
+    /// When the elbow of an arm of two links changes sides (s), ascending.
+    #[getter]
+    fn posture_changes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, &self.found.posture_changes)
+    }
+
+    /// Return all of it as dictionaries and lists, as ``plan.json`` and ``--json`` have it.
+    fn as_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let found = &self.found;
+        let fields = PyDict::new(py);
+        fields.set_item("safe", self.safe())?;
+        let violations: Vec<_> = found.violations.iter().map(|v| v.as_dict(py)).collect::<PyResult<_>>()?;
+        fields.set_item("violations", PyList::new(py, violations)?)?;
+        fields.set_item("floor", FLOOR)?;
+        let least = found.least_clearance.as_ref().map(|least| least.as_dict(py)).transpose()?;
+        fields.set_item("least_clearance", least)?;
+        let stops: Vec<_> =
+            found.joint_margins.iter().map(|m| m.as_ref().map(JointMargin::as_pair)).collect();
+        fields.set_item("joint_margins", stops)?;
+        let motion: Vec<_> = found.motion_margins.iter().map(|m| m.as_dict(py)).collect::<PyResult<_>>()?;
+        fields.set_item("motion_margins", PyList::new(py, motion)?)?;
+        fields.set_item("posture_changes", &found.posture_changes)?;
+        Ok(fields)
+    }
+
+    fn __bool__(&self) -> bool {
+        self.safe()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Verdict {}>", self.in_words())
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let Some(asked) = &self.asked else {
+            let message = "cannot pickle a replanner's verdict: what was known of the obstacles is not kept to judge again";
+            return Err(PyTypeError::new_err(message));
+        };
+        let again = py.import("elbowroom._core")?.getattr("verdict_again")?;
+        let motion = Motion::from(Arc::clone(&asked.motion));
+        let told = (asked.scene.bind(py), motion, asked.curve.name(), asked.margin, self.safe());
+        (again, told).into_pyobject(py)
+    }
+}
+
+/// Return the verdict on ``motion`` in ``scene``, judged again; ``safe`` is what an earlier one said.
+///
+/// Raises:
+///     Refuted: It was said to be safe, and is not.
+#[pyfunction]
+pub(crate) fn verdict_again(
+    py: Python<'_>,
+    scene: &Bound<'_, PyAny>,
+    motion: &Motion,
+    curve: &str,
+    margin: f64,
+    safe: bool,
+) -> PyResult<Verdict> {
+    let verdict = check::judged(py, scene, motion, Curve::named(py, curve)?, margin, None)?;
+    if safe && !verdict.safe() {
+        return Err(refuted(py, "the motion was kept as safe", verdict));
+    }
+    Ok(verdict)
+}
+
+/// What was kept does not hold: the motion is not safe.
+pub(crate) fn refuted(py: Python<'_>, what: &str, verdict: Verdict) -> PyErr {
+    let first = verdict.found.violations.first().map_or("not safe", Violation::message);
+    let message = format!("{what}; judged again, it is not: {first}");
+    match Py::new(py, verdict) {
+        Ok(verdict) => errors::refuted(py, &message, Some(verdict)),
+        Err(error) => error,
+    }
+}
+
+/// The scene of the core in what Python holds as a scene.
+pub(crate) fn core_of<'py>(scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, scene::Scene>> {
+    Ok(scene.getattr("core")?.cast_into::<scene::Scene>()?)
 }

@@ -57,6 +57,11 @@ impl Drop for Announce<'_> {
 /// Seconds spent in each stage.
 pub(crate) type Timings = Vec<(&'static str, f64)>;
 
+/// The same, for what keeps them.
+pub(crate) fn told(timings: Timings) -> Vec<(String, f64)> {
+    timings.into_iter().map(|(stage, seconds)| (stage.to_owned(), seconds)).collect()
+}
+
 /// Does `work` on a thread of its own, so that this one can look out for Ctrl-C and tell `on_stage` the name of
 /// each stage as it begins.
 pub(crate) fn run<T: Send>(

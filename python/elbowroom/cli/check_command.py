@@ -36,7 +36,7 @@ def check_command(
             raise BadSetting(f"--joints names {len(names)}; the arm of {scene} has {number} joints", setting="joints")
         result = check_file(loaded, file, joints=names, margin=margin, timeout=timeout)
         if as_json:
-            typer.echo(json.dumps({"curve": result.curve, **result.verdict}, allow_nan=False))
+            typer.echo(json.dumps({"curve": result.curve, **result.verdict.as_dict()}, allow_nan=False))
         else:
             pieces = len(result.motion.starts)
             typer.echo(f"{file}: {pieces} {result.curve} pieces, {result.motion.duration:.3f} s")

@@ -12,7 +12,7 @@ from elbowroom.cli.failure import reported
 from elbowroom.own_planners import OWN
 
 if TYPE_CHECKING:
-    from elbowroom.plan import Plan
+    from elbowroom._core import Plan
     from elbowroom.scene import Scene
 
 

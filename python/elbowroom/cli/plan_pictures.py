@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from elbowroom import figures
+from elbowroom._core import Plan
 from elbowroom.free_space import free_space
-from elbowroom.plan import Plan
 
 
 def draw(plan: Plan, folder: Path, *, animate: bool) -> list[Path]:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
+from elbowroom._core import Clearance, Plan, Verdict
 from elbowroom.numbered import numbered
-from elbowroom.plan import Plan
-from elbowroom.verdict import LeastClearance, Verdict
 
 MOST_STOPS = 3
 """With more joints that have stops than this, only the one nearest to a stop gets a line."""
@@ -28,8 +27,7 @@ def in_words(plan: Plan) -> str:
         lines.append(
             f"no motion costs less than {plan.lower_bound:.6f}: this one is within {100 * plan.gap:.2f} % of the best"
         )
-    if plan.verdict is not None:
-        lines += verdict_lines(plan.verdict)
+    lines += verdict_lines(plan.verdict)
     if plan.assumed_limits:
         lines.append(f"not stated in the scene, so taken as {_assumed(plan)}")
     return "\n".join(lines)
@@ -49,30 +47,27 @@ def _assumed(plan: Plan) -> str:
 UNIT_OF_RATE = {"velocity": "deg/s", "acceleration": "deg/s²", "jerk": "deg/s³"}
 
 
-def _against(nearest: LeastClearance) -> str:
-    if "other_link" in nearest:
-        return f"link {nearest['other_link']}"
-    name = nearest["name"]
-    return f"obstacle {nearest['obstacle']}" + (f" ({name})" if name else "")
+def _against(nearest: Clearance) -> str:
+    if nearest.other_link is not None:
+        return f"link {nearest.other_link}"
+    return f"obstacle {nearest.obstacle}" + (f" ({nearest.name})" if nearest.name else "")
 
 
 def verdict_lines(verdict: Verdict) -> list[str]:
     """Return ``verdict`` for people."""
-    lines = ["SAFE: proved for the whole motion" if verdict["safe"] else "NOT SAFE"]
-    lines += [f"  {violation['message']}" for violation in verdict["violations"]]
-    nearest = verdict["least_clearance"]
+    lines = ["SAFE: proved for the whole motion" if verdict.safe else "NOT SAFE"]
+    lines += [f"  {violation.message}" for violation in verdict.violations]
+    nearest = verdict.least_clearance
     if nearest is not None:
         lines.append(
-            f"  least clearance {nearest['distance'] * 1e3:.4f} mm at {nearest['time']:.3f} s, "
-            f"link {nearest['link']} and {_against(nearest)}"
+            f"  least clearance {nearest.distance * 1e3:.4f} mm at {nearest.time:.3f} s, "
+            f"link {nearest.link} and {_against(nearest)}"
         )
-    stops = [(margin, joint) for joint, margin in enumerate(verdict["joint_margins"], 1) if margin is not None]
-    for margin, joint in stops if len(stops) <= MOST_STOPS else [min(stops)]:
+    stops = [(m.distance, m.time, joint) for joint, m in enumerate(verdict.joint_margins, 1) if m is not None]
+    for distance, time, joint in stops if len(stops) <= MOST_STOPS else [min(stops)]:
         others = "" if len(stops) <= MOST_STOPS else f", the {len(stops) - 1} others keep farther off"
-        lines.append(
-            f"  joint {joint} comes within {math.degrees(margin[0]):.3f} deg of a stop at {margin[1]:.3f} s{others}"
-        )
-    changes = verdict["posture_changes"]
+        lines.append(f"  joint {joint} comes within {math.degrees(distance):.3f} deg of a stop at {time:.3f} s{others}")
+    changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
     return lines

@@ -18,6 +18,7 @@ from elbowroom.errors import BadSetting
 from elbowroom.plan import Objective
 from elbowroom.planners import Choice
 from elbowroom.scene import Scene, text_of
+from elbowroom.whole import check_whole, is_whole
 
 Place = Literal["local", "ray"]
 
@@ -140,7 +141,7 @@ def _check(
     for name, given in (("scenes", scenes), ("planners", planners), ("tasks", tasks), ("seeds", seeds)):
         if given is not None and not len(given):
             refuse(f"no {name} to compare", name)
-    if len(set(seeds)) != len(seeds) or not all(0 <= seed < 2**63 for seed in seeds):
+    if len(set(seeds)) != len(seeds) or not all(map(is_whole, seeds)):
         refuse("seeds are different whole numbers from 0 on", "seeds")
     if objective not in get_args(Objective):
         refuse(f"no objective is called '{objective}'; tip, joint or time", "objective")
@@ -149,8 +150,8 @@ def _check(
     if on == "ray" and not ray_is_there():
         refuse("--on ray needs the extra: pip install 'elbowroom[ray]'", "on")
     for name, number in (("budget", budget), ("jobs", jobs)):
-        if number is not None and not 1 <= number < 2**63:
-            refuse(f"{name} is {number}, it must be a whole number from 1 on", name)
+        if number is not None:
+            check_whole(name, number, least=1)
     if timeout is not None and not 0.0 <= timeout < math.inf:
         refuse(f"timeout is {timeout} s, it must be finite and not negative", "timeout")
 

@@ -11,6 +11,7 @@ import numpy as np
 from elbowroom.compare.generate_chain import generated_chain
 from elbowroom.errors import BadSetting, SceneError
 from elbowroom.scene import Scene
+from elbowroom.whole import check_whole
 
 LINK = 25.0
 """Length of both links (cm)."""
@@ -95,8 +96,7 @@ def write_scenes(count: int, folder: Path, *, seed: int, links: int = 2) -> list
     if not 2 <= links <= MOST_LINKS:
         raise BadSetting(f"links is {links}, it must be a whole number from 2 to {MOST_LINKS}", setting="links")
     for name, value, least in (("count", count, 1), ("seed", seed, 0)):
-        if value < least:
-            raise BadSetting(f"{name} is {value}, it must be a whole number from {least} on", setting=name)
+        check_whole(name, value, least=least)
     folder.mkdir(parents=True, exist_ok=True)
     digits = len(str(count))
     paths = []

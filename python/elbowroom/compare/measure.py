@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from elbowroom._core import Motion
+from elbowroom._core import Motion, Verdict
 from elbowroom.scene import Configuration, Place, Scene
-from elbowroom.verdict import Verdict
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 PARTS = 64
@@ -63,8 +62,8 @@ def misses(scene: Scene, task: str, motion: Motion, verdict: Verdict) -> str | N
         return "the motion ends elbow-down, the task asks for elbow-up"
     if asked.posture == "down" and bend < -NEAR_ENOUGH:
         return "the motion ends elbow-up, the task asks for elbow-down"
-    if asked.posture == "keep" and verdict["posture_changes"]:
-        return f"the posture changes at {verdict['posture_changes'][0]:.3f} s, the task asks to keep it"
+    if asked.posture == "keep" and verdict.posture_changes:
+        return f"the posture changes at {verdict.posture_changes[0]:.3f} s, the task asks to keep it"
     return None
 
 

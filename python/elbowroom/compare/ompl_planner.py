@@ -76,7 +76,7 @@ class OmplPlanner:
         if not setup.haveExactSolutionPath():
             if searched - begun >= limit:
                 raise TimedOut(f"nothing found within {limit:g} s", timeout=limit)
-            raise NotFound(f"{algorithm} gave up", step=resolution)
+            raise NotFound(f"{algorithm} gave up")
         if simplify:
             setup.simplifySolution()
         corners = np.array([_angles(scene, state) for state in setup.getSolutionPath().getStates()])
@@ -122,7 +122,7 @@ def _setup(scene: Scene, task: str, *, resolution: float, continuous: bool) -> o
     starts = [q for q in configurations(scene, asked.start) if clearance(scene, q) > 0.0]
     goals = [q for q in configurations(scene, asked.goal, asked.posture) if clearance(scene, q) > 0.0]
     if not starts or not goals:
-        raise NotFound(f"no free configuration at the {'goal' if starts else 'start'}", step=resolution)
+        raise NotFound(f"no free configuration at the {'goal' if starts else 'start'}")
     if asked.posture == "keep":
         raise BadSetting("planner ompl cannot keep a posture", setting="planners")
     for q in starts:

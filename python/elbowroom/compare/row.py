@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
 from typing import Any, Literal
+
+import msgspec
+from msgspec.structs import asdict, fields
 
 from elbowroom._core import __version__
 from elbowroom.errors import ElbowroomError
@@ -35,7 +38,7 @@ FAILURES: dict[str, str] = {
     "no_motion": "what the planner returned is no motion",
     "unsafe": "the verifier does not call the motion safe",
     "wrong_end": "the motion begins or ends elsewhere, or in the wrong posture",
-    "broken": "the planner raised what it should not",
+    "broken": "the planner raised what it should not, or claims what is not so",
     "crashed": "the planner ended its process",
 }
 """What can become of a run instead of success."""
@@ -44,8 +47,7 @@ MEASURED = ("time_s", "stages_s")
 """Columns that no two runs share; in all others the same run gives the same row."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Problem:
+class Problem(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """One run: a planner with its settings on a task of a scene, with a seed and limits."""
 
     scene: str
@@ -106,8 +108,7 @@ class Problem:
 KEY = tuple(part.name for part in fields(Problem) if part.name != "scene")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Row(Problem):
+class Row(Problem, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A finished run. What does not apply, or is not known, is None.
 
     Attributes:
@@ -140,11 +141,11 @@ class Row(Problem):
     evaluations: int | None = None
     lower_bound: float | None = None
     gap: float | None = None
-    failure: str | None = None
+    failure: Failure | None = None
     message: str | None = None
     time_s: float
     stages_s: Mapping[str, float]
-    convergence: Sequence[Sequence[float]] | None = None
+    convergence: Sequence[tuple[int, float]] | None = None
 
     @classmethod
     def failed(
@@ -179,22 +180,31 @@ class Row(Problem):
             DamagedRow: The line holds no row of this version.
         """
         try:
-            read = json.loads(line)
-        except (json.JSONDecodeError, RecursionError):
+            read = msgspec.json.decode(line)
+        except (msgspec.DecodeError, RecursionError):
             raise DamagedRow("no JSON") from None
-        names = [part.name for part in fields(cls)]
         if not isinstance(read, dict):
             raise DamagedRow("no JSON object")
-        if missing := [name for name in names if name not in read]:
+        # Columns with a default may be left out in code, but not in a file.
+        if missing := [part.name for part in fields(cls) if part.name not in read]:
             raise DamagedRow(f"column {missing[0]} is missing")
-        if unknown := [name for name in read if name not in names]:
-            raise DamagedRow(f"no such column: {unknown[0][:40]}")
-        return cls(**read)
+        try:
+            return msgspec.convert(read, cls)
+        except msgspec.ValidationError as error:
+            raise DamagedRow(_in_words(str(error))) from None
 
     @property
     def lasting(self) -> dict[str, Any]:
         """All columns but the measured times: the same whenever and wherever the run is made."""
         return {name: value for name, value in asdict(self).items() if name not in MEASURED}
+
+
+def _in_words(refused: str) -> str:
+    """What msgspec says of a row, the column first."""
+    if unknown := re.match(r"Object contains unknown field `(.*)`", refused, re.DOTALL):
+        return f"no such column: {unknown[1][:40]}"
+    what, _, where = refused.partition(" - at `$.")
+    return f"column {where.rstrip('`')}: {what[:1].lower()}{what[1:]}" if where else refused
 
 
 LONGEST_MESSAGE = 500

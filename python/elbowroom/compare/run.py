@@ -9,15 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from elbowroom._core import Motion
+from elbowroom._core import Check, Plan, gap, verify
 from elbowroom.check import check
 from elbowroom.compare.measure import lengths, misses
 from elbowroom.compare.row import Failure, Problem, Row
 from elbowroom.errors import BadSetting, NoPath, NotFound, NotFree, TimedOut, TrajectoryError, UnknownTask
-from elbowroom.plan import Plan
-from elbowroom.planners import BrokenPlugin, PlannerPlugin, Proposal, load
+from elbowroom.planners import BrokenPlugin, OwnPlanner, PlannerPlugin, Proposal, load
 from elbowroom.scene import Scene
-from elbowroom.verdict import Verdict
 
 
 def run(problem: Problem, scene: Scene) -> Row:
@@ -33,7 +31,8 @@ def run(problem: Problem, scene: Scene) -> Row:
         return failed("broken", error)
     begun = perf_counter()
     try:
-        return _judged(problem, scene, _asked(planner, problem, scene), begun)
+        answer = _asked(planner, problem, scene)
+        return _judged(problem, scene, answer, begun, own=isinstance(planner, OwnPlanner))
     except NoPath as error:
         return failed("no_path", error)
     except NotFound as error:
@@ -63,57 +62,69 @@ def _asked(planner: PlannerPlugin, problem: Problem, scene: Scene) -> Any:
     )
 
 
-def _judged(problem: Problem, scene: Scene, answer: Any, begun: float) -> Row:
+def _judged(problem: Problem, scene: Scene, answer: Any, begun: float, *, own: bool) -> Row:
     asked = perf_counter()
-    if isinstance(answer, Plan) and answer.verdict is not None:
-        motion, verdict, stages = answer.motion, answer.verdict, dict(answer.timings)
-        evaluations, convergence = answer.evaluations, answer.convergence
-    elif isinstance(answer, Proposal):
-        stages = {str(stage): float(seconds) for stage, seconds in answer.timings.items()}
-        evaluations, convergence = answer.evaluations, answer.convergence
-        try:
-            motion, verdict = _verified(scene, answer)
-        except (TrajectoryError, TypeError, ValueError) as error:
-            return Row.failed(problem, "no_motion", str(error), time_s=perf_counter() - begun)
-        stages["verdict"] = perf_counter() - asked
-    else:
+    if not isinstance(answer, Plan | Proposal):
         message = f"the planner returned {type(answer).__name__}, not a Proposal"
         return Row.failed(problem, "no_motion", message, time_s=perf_counter() - begun)
+    stages = {str(stage): float(seconds) for stage, seconds in answer.timings.items()}
+    if own and isinstance(answer, Plan):
+        motion, verdict = answer.motion, answer.verdict
+    else:
+        try:
+            judged = _verified(scene, answer)
+        except (TrajectoryError, TypeError, ValueError) as error:
+            return Row.failed(problem, "no_motion", str(error), time_s=perf_counter() - begun)
+        motion, verdict = judged.motion, judged.verdict
+        stages["verdict"] = perf_counter() - asked
     spent = perf_counter() - begun
     measured = lengths(scene, motion)
     cost = measured.by(problem.objective)
-    nearest = verdict["least_clearance"]
+    nearest = verdict.least_clearance
     bound = None if answer.lower_bound is None else _finite(answer.lower_bound, "lower_bound")
+    if isinstance(answer, Plan) and (answer.objective != problem.objective or answer.scene != scene):
+        # A bound on something else.
+        bound = None
+    false_bound = bound is not None and bound > cost * (1.0 + ROUNDING)
     known: dict[str, Any] = {
         "found": True,
-        "safe": bool(verdict["safe"]),
+        "safe": verdict.safe,
         "cost": cost,
         "tip_length_m": measured.tip,
         "joint_travel_rad": measured.joint,
         "duration_s": measured.time,
-        "least_clearance_m": None if nearest is None else nearest["distance"],
-        "evaluations": None if evaluations is None else int(evaluations),
+        "least_clearance_m": None if nearest is None else nearest.distance,
+        "evaluations": None if answer.evaluations is None else int(answer.evaluations),
         "lower_bound": bound,
-        "gap": None if bound is None else 0.0 if cost == 0.0 else cost / bound - 1.0 if bound > 0.0 else None,
+        "gap": None if bound is None or false_bound else gap(cost, bound),
         "stages_s": _finite_stages(stages),
-        "convergence": _curve(convergence),
+        "convergence": _curve(answer.convergence),
     }
-    if not verdict["safe"]:
-        reasons = "; ".join(violation["message"] for violation in verdict["violations"][:2])
+    if not verdict.safe:
+        reasons = "; ".join(violation.message for violation in verdict.violations[:2])
         return Row.failed(problem, "unsafe", reasons, time_s=spent, **known)
     if missed := misses(scene, problem.task, motion, verdict):
         return Row.failed(problem, "wrong_end", missed, time_s=spent, **known)
+    if false_bound:
+        message = f"the planner claims that no motion costs less than {bound:.9g}; its own costs {cost:.9g}"
+        return Row.failed(problem, "broken", message, time_s=spent, **known)
     return Row.after(problem, success=True, time_s=spent, **known)
 
 
-def _verified(scene: Scene, answer: Proposal) -> tuple[Motion, Verdict]:
+ROUNDING = 1e-6
+"""By which share a bound may be above the cost as it is measured here, which is right to some digits only."""
+
+
+def _verified(scene: Scene, answer: Plan | Proposal) -> Check:
+    """What the verifier says of ``answer`` in ``scene``, whatever it says of itself: a plan may be of another scene."""
+    if isinstance(answer, Plan):
+        return verify(scene, answer.motion, curve="quintic", margin=0.0)
     t, q, v, a = (
         None if x is None else np.asarray(x, dtype=np.float64) for x in (answer.t, answer.q, answer.v, answer.a)
     )
     assert t is not None
     assert q is not None
-    judged = check(scene, t=t, q=q, v=v, a=a)
-    return judged.motion, judged.verdict
+    return check(scene, t=t, q=q, v=v, a=a)
 
 
 def _finite(value: Any, name: str) -> float:
@@ -127,7 +138,7 @@ def _finite_stages(stages: Mapping[str, Any]) -> dict[str, float]:
     return {stage: _finite(seconds, f"time of stage {stage}") for stage, seconds in stages.items()}
 
 
-def _curve(convergence: Sequence[tuple[int, float]] | None) -> list[list[float]] | None:
+def _curve(convergence: Sequence[tuple[int, float]] | None) -> list[tuple[int, float]] | None:
     if convergence is None:
         return None
-    return [[int(evaluations), _finite(cost, "cost in convergence")] for evaluations, cost in convergence]
+    return [(int(evaluations), _finite(cost, "cost in convergence")) for evaluations, cost in convergence]

@@ -162,13 +162,14 @@ def cliffs_delta(first: ArrayLike, second: ArrayLike) -> float:
     return float(smaller - greater) / (a.size * b.size)
 
 
-def a12(first: ArrayLike, second: ArrayLike) -> float:
-    """Return the probability that a value of ``first`` is greater than one of ``second``, ties counting half.
+def a12(delta: float) -> float:
+    """Return the probability that a value of the first sample is greater than one of the second, ties counting half, of
+    their Cliff's ``delta``.
 
     Reference:
         Vargha and Delaney, *A critique and improvement of the CL common language effect size statistics* (2000).
     """
-    return (cliffs_delta(first, second) + 1.0) / 2.0
+    return (delta + 1.0) / 2.0
 
 
 def holm(p_values: Sequence[float]) -> list[float]:

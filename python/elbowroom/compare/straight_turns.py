@@ -9,12 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from elbowroom._core import TICK
+from elbowroom._core import ASSUMED_LIMITS, TICK
 from elbowroom.planners import Proposal
 from elbowroom.scene import Scene
-
-ASSUMED_LIMITS = {"velocity": math.pi / 2.0, "acceleration": math.pi, "jerk": 4.0 * math.pi}
-"""What elbowroom's own planners take for motion limits that a scene does not state (rad/s, rad/s², rad/s³)."""
 
 STEEPEST = {"velocity": (15.0 / 8.0, 1), "acceleration": (10.0 / math.sqrt(3.0), 2), "jerk": (60.0, 3)}
 """Greatest rates of the quintic from 0 to 1 in time 1, at rest at both ends; and the power of the time they fall by."""

@@ -14,6 +14,7 @@ import numpy as np
 from elbowroom.compare.row import Row
 from elbowroom.compare.statistics import (
     Interval,
+    a12,
     cliffs_delta,
     holm,
     mann_whitney,
@@ -133,7 +134,7 @@ class Pair:
     @property
     def a12(self) -> float:
         """Vargha and Delaney's A: the chance that the first planner's value is greater, equal ones counting half."""
-        return (self.delta + 1.0) / 2.0
+        return a12(self.delta)
 
 
 @dataclass(frozen=True)

@@ -5,22 +5,23 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
-from dataclasses import asdict, fields
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
+
+import msgspec
+from msgspec.structs import asdict
 
 from elbowroom.compare.row import DamagedRow, Row
 from elbowroom.errors import ElbowroomError
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
 class DamagedTable(ElbowroomError, ValueError):
     """A file of rows with a line that is none; ``line`` counts from 1."""
 
     line: int
-
-    def __init__(self, message: str, *, line: int) -> None:
-        super().__init__(message, line=line)
 
 
 class Table:
@@ -107,16 +108,24 @@ def write_parquet(rows: Iterable[Row], path: Path) -> Path:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
-    kinds = {
-        "str": pa.string(),
-        "int": pa.int64(),
-        "float": pa.float64(),
-        "bool": pa.bool_(),
-        "Objective": pa.string(),
-        "Mapping": pa.string(),
-        "Sequence": pa.list_(pa.list_(pa.float64())),
-    }
-    schema = pa.schema([(part.name, kinds[_kind(str(part.type))]) for part in fields(Row)])
+    def kind(of: msgspec.inspect.Type) -> Any:
+        match of:
+            case msgspec.inspect.UnionType(types=(one, msgspec.inspect.NoneType())):
+                return kind(one)
+            case msgspec.inspect.IntType():
+                return pa.int64()
+            case msgspec.inspect.FloatType():
+                return pa.float64()
+            case msgspec.inspect.BoolType():
+                return pa.bool_()
+            case msgspec.inspect.CollectionType():
+                return pa.list_(pa.list_(pa.float64()))
+            case _:
+                return pa.string()
+
+    described = msgspec.inspect.type_info(Row)
+    assert isinstance(described, msgspec.inspect.StructType)
+    schema = pa.schema([(part.name, kind(part.type)) for part in described.fields])
     flat = []
     for row in rows:
         values = asdict(row)
@@ -125,7 +134,3 @@ def write_parquet(rows: Iterable[Row], path: Path) -> Path:
         flat.append(values)
     pq.write_table(pa.Table.from_pylist(flat, schema=schema), path)
     return path
-
-
-def _kind(annotation: str) -> str:
-    return annotation.removesuffix(" | None").partition("[")[0]

@@ -10,7 +10,7 @@ from matplotlib.artist import Artist
 
 from elbowroom.figures.links import DrawnArm, link_legend
 from elbowroom.figures.style import CM, INK, SMOOTHED, legend_beside, mark_base, mark_ends, plane
-from elbowroom.plan import Plan
+from elbowroom.plan import AnyPlan
 
 FRAMES_PER_SECOND = 20
 
@@ -18,7 +18,7 @@ MOST_FRAMES = 400
 """A longer motion is shown faster than it is."""
 
 
-def animate(plan: Plan, path: Path) -> Path:
+def animate(plan: AnyPlan, path: Path) -> Path:
     """Write a GIF of the arm along its motion to ``path`` and return it; in real time up to 20 s.
 
     Links are as wide as they are, strokes if they have no width.

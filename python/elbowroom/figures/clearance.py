@@ -7,10 +7,10 @@ from matplotlib.figure import Figure
 
 from elbowroom.figures.links import link_colours
 from elbowroom.figures.style import DASHES, INK, legend_beside, new_figure
-from elbowroom.plan import Plan
+from elbowroom.plan import AnyPlan
 
 
-def clearance_curve(plan: Plan) -> Figure:
+def clearance_curve(plan: AnyPlan) -> Figure:
     """Return the clearance of each link over time, that between links where they have to keep clear of each other, and
     the least one that the verifier found.
     """
@@ -26,15 +26,15 @@ def clearance_curve(plan: Plan) -> Figure:
     between = plan.scene.core.self_clearances(q) * 1e3
     if np.isfinite(between).any():
         axes.plot(t, between, color=INK, linestyle=(0, (1, 1)), linewidth=2.2, label="between links")
-    least = plan.verdict["least_clearance"] if plan.verdict else None
+    least = plan.verdict.least_clearance if plan.verdict is not None else None
     if least is not None:
         axes.plot(
-            least["time"],
-            least["distance"] * 1e3,
+            least.time,
+            least.distance * 1e3,
             "v",
             color=INK,
             markersize=7,
-            label=f"least: {least['distance'] * 1e3:.3f} mm",
+            label=f"least: {least.distance * 1e3:.3f} mm",
             linestyle="none",
             clip_on=False,
             zorder=5,

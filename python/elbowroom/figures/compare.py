@@ -12,7 +12,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from elbowroom.figures.style import COLOURS, DASHES, INK
 
-Curve = Sequence[Sequence[float]]
+Curve = Sequence[tuple[int, float]]
 """Evaluations made and the best cost by then, ascending."""
 
 

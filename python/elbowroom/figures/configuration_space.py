@@ -10,14 +10,14 @@ from matplotlib.patches import Patch
 
 from elbowroom.errors import BadSetting
 from elbowroom.figures.style import COLLISION, GOAL, INK, LIMIT, SMOOTHED, START, new_figure
-from elbowroom.plan import Plan
+from elbowroom.plan import AnyPlan
 from elbowroom.scene import Joint, Scene
 
 POINTS = 361
 """How finely each joint's range is looked at; the picture shows, the verifier decides."""
 
 
-def configuration_space(plan: Plan) -> Figure:
+def configuration_space(plan: AnyPlan) -> Figure:
     """Return theta 1 and theta 2 with the configurations in contact, the stops, and the motion through them.
 
     Raises:

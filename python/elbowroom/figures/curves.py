@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from elbowroom._core import Plan
 from elbowroom.errors import BadSetting
 from elbowroom.figures.style import (
     CM,
@@ -22,7 +23,8 @@ from elbowroom.figures.style import (
     new_figure,
 )
 from elbowroom.numbered import numbered
-from elbowroom.plan import Floats, Plan
+from elbowroom.plan import AnyPlan
+from elbowroom.samples import Floats
 from elbowroom.scene import Joint
 
 ROWS = 12
@@ -36,7 +38,7 @@ def joint_lines(joints: int) -> list[tuple[str, str]]:
     return list(islice(zip(cycle(COLOURS), cycle(DASHES), strict=False), joints))
 
 
-def tip_curve(plan: Plan, *, of: str) -> Figure:
+def tip_curve(plan: AnyPlan, *, of: str) -> Figure:
     """Return ``x``, ``y``, or the angle of a joint, such as ``theta 1``, over time, the via points marked.
 
     Raises:
@@ -73,7 +75,7 @@ def tip_curve(plan: Plan, *, of: str) -> Figure:
     return figure
 
 
-def joint_curves(plan: Plan) -> Figure:
+def joint_curves(plan: AnyPlan) -> Figure:
     """Return position, velocity, acceleration and jerk of all joints over time, with their limits drawn."""
     joints = len(plan.scene.arm.joints)
     figure = Figure(figsize=(7.4 + 0.9 * ((joints - 1) // ROWS), 8.4), layout="constrained")
@@ -102,7 +104,7 @@ def joint_curves(plan: Plan) -> Figure:
     return figure
 
 
-def _draw_limits(axes: Axes, plan: Plan, rate: str) -> None:
+def _draw_limits(axes: Axes, plan: AnyPlan, rate: str) -> None:
     """Draw the limits on ``rate``, one pair of lines for joints that have the same."""
     groups: dict[tuple[tuple[float, ...], bool], list[int]] = {}
     for j in range(len(plan.scene.arm.joints)):
@@ -122,7 +124,7 @@ def _draw_limits(axes: Axes, plan: Plan, rate: str) -> None:
             )
 
 
-def _limits(plan: Plan, j: int, rate: str) -> tuple[list[float], bool]:
+def _limits(plan: AnyPlan, j: int, rate: str) -> tuple[list[float], bool]:
     """The limits of joint ``j`` on ``rate``, and whether they were assumed."""
     joint: Joint = plan.scene.arm.joints[j]
     if rate == "position":
@@ -130,13 +132,13 @@ def _limits(plan: Plan, j: int, rate: str) -> tuple[list[float], bool]:
     stated = getattr(joint, rate)
     if stated is not None:
         return [-stated, stated], False
-    for number, name, value in plan.assumed_limits:
+    for number, name, value in plan.assumed_limits if isinstance(plan, Plan) else []:
         if (number, name) == (j + 1, rate):
             return [-value, value], True
     return [], False
 
 
-def _values(plan: Plan, of: str, t: Floats) -> Floats:
+def _values(plan: AnyPlan, of: str, t: Floats) -> Floats:
     samples = plan.at(t)
     if of in ("x", "y"):
         values: Floats = samples.tip[:, "xy".index(of)] * CM

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from elbowroom.figures.style import CM, INK, LINK_1, LINK_2
-from elbowroom.plan import Floats
+from elbowroom.samples import Floats
 from elbowroom.scene import Scene
 
 SHADES = ("viridis", 0.1, 0.82)

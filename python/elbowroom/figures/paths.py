@@ -6,16 +6,18 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from elbowroom._core import PaperPlan
 from elbowroom.figures.links import draw_stills, link_legend
 from elbowroom.figures.style import CM, FREE, INK, PATH, SMOOTHED, legend_beside, mark_base, mark_ends, plane
 from elbowroom.free_space import FreeSpace
-from elbowroom.plan import Floats, Plan
+from elbowroom.plan import AnyPlan
+from elbowroom.samples import Floats
 
 STILLS = 25
 """How many times the arm is drawn along its motion."""
 
 
-def tip_path(plan: Plan, space: FreeSpace | None) -> Figure:
+def tip_path(plan: AnyPlan, space: FreeSpace | None) -> Figure:
     """Return the tip's path over the free grid points, if ``space`` is given, with the other paths of the same cost
     behind it.
     """
@@ -25,7 +27,7 @@ def tip_path(plan: Plan, space: FreeSpace | None) -> Figure:
         ys, xs = np.nonzero(space.union)
         x, y = space.x[xs] * CM, space.y[ys] * CM
         axes.plot(x, y, ".", color=FREE, markersize=1.5, zorder=1, label="free grid point")
-    others = plan.equal_paths[1:]
+    others = plan.equal_paths[1:] if isinstance(plan, PaperPlan) else []
     for i, path in enumerate(others):
         label = f"{len(others)} other paths of this cost" if i == 0 else None
         _line(axes, path, color=PATH, linewidth=0.8, alpha=0.35, zorder=4, label=label)
@@ -36,7 +38,7 @@ def tip_path(plan: Plan, space: FreeSpace | None) -> Figure:
     return figure
 
 
-def smoothed_path(plan: Plan) -> Figure:
+def smoothed_path(plan: AnyPlan) -> Figure:
     """Return the tip's way along the quintic pieces, with the path and the via points that it was led through."""
     title = f"task '{plan.task}': quintic pieces, {plan.motion.duration:.4g} s"
     figure, axes = plane(_with_verdict(title, plan), plan.scene)
@@ -61,7 +63,7 @@ def smoothed_path(plan: Plan) -> Figure:
     return figure
 
 
-def arm_tracking(plan: Plan) -> Figure:
+def arm_tracking(plan: AnyPlan) -> Figure:
     """Return the arm at instants along the motion, darker with time: of two links the first red and the second green,
     of more the shades go from base to tip. Bodies are as wide as they are.
     """
@@ -77,13 +79,13 @@ def arm_tracking(plan: Plan) -> Figure:
     return figure
 
 
-def _with_verdict(title: str, plan: Plan) -> str:
+def _with_verdict(title: str, plan: AnyPlan) -> str:
     if plan.verdict is None:
         return f"{title} (not verified)"
-    return f"{title} (verified)" if plan.verdict["safe"] else f"{title} (NOT SAFE)"
+    return f"{title} (verified)" if plan.verdict.safe else f"{title} (NOT SAFE)"
 
 
-def _ends(axes: Axes, plan: Plan) -> None:
+def _ends(axes: Axes, plan: AnyPlan) -> None:
     start, goal = plan.tip_path[0], plan.tip_path[-1]
     mark_ends(axes, (start[0], start[1]), (goal[0], goal[1]))
 

@@ -21,8 +21,7 @@ from elbowroom.follow.courses import middle, shifts
 from elbowroom.follow.followed import Followed, Step
 from elbowroom.follow.goal import Goal
 from elbowroom.known import Known, Sighting
-from elbowroom.plan import Floats
-from elbowroom.replanner import sampled
+from elbowroom.samples import Floats, sampled
 from elbowroom.scene import Circle, ObstacleMotion, Polygon
 
 AHEAD = 1.0

@@ -8,7 +8,7 @@ import numpy as np
 
 from elbowroom.follow.courses import shifted, shifts
 from elbowroom.follow.followed import Followed
-from elbowroom.plan import Floats
+from elbowroom.samples import Floats
 
 
 def clearances(followed: Followed) -> dict[str, Floats]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from elbowroom.plan import Floats
+from elbowroom.samples import Floats
 from elbowroom.scene import Circle, ObstacleMotion, Pair, Polygon, Scene
 
 

@@ -41,7 +41,7 @@ def summary(followed: Followed) -> dict[str, Any]:
             "greatest": float(seconds.max()),
             "longer_than_a_step": int(np.count_nonzero(seconds > 1.0 / followed.rate)),
         },
-        "verdict": followed.check.verdict,
+        "verdict": followed.check.verdict.as_dict(),
     }
 
 

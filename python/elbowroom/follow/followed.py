@@ -9,10 +9,10 @@ from typing import Literal
 import numpy as np
 
 from elbowroom import _core
-from elbowroom.check import Check
+from elbowroom._core import Check
 from elbowroom.known import Known
-from elbowroom.plan import Floats, Samples
 from elbowroom.replanner import Decision
+from elbowroom.samples import Floats, Samples
 from elbowroom.scene import Scene
 
 Outcome = Literal["reached", "not reached", "not safe"]

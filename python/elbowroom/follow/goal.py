@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from elbowroom.plan import Samples
+from elbowroom.samples import Samples
 from elbowroom.scene import Configuration, Joint, Pair, Place, PostureWish, Scene
 
 NEAR = 1e-6

@@ -66,15 +66,15 @@ def clearance(followed: Followed) -> Figure:
     for name, values in found.items():
         colour, dash = (OBSTACLE, "-.") if name == "standing obstacles" else next(looks)
         axes.plot(t, values * 1e3, color=colour, linestyle=dash, linewidth=1.8, label=name)
-    least = followed.check.verdict["least_clearance"]
+    least = followed.check.verdict.least_clearance
     if least is not None:
         axes.plot(
-            least["time"],
-            least["distance"] * 1e3,
+            least.time,
+            least.distance * 1e3,
             "v",
             color=INK,
             markersize=7,
-            label=f"least: {least['distance'] * 1e3:.1f} mm",
+            label=f"least: {least.distance * 1e3:.1f} mm",
             linestyle="none",
             clip_on=False,
             zorder=5,

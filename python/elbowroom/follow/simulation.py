@@ -13,8 +13,8 @@ from elbowroom.errors import BadSetting
 from elbowroom.follow.courses import as_recorded
 from elbowroom.follow.followed import Followed, Step
 from elbowroom.follow.goal import Goal
-from elbowroom.plan import Floats
-from elbowroom.replanner import Replanner, sampled
+from elbowroom.replanner import Replanner
+from elbowroom.samples import Floats, sampled
 from elbowroom.scene import Pair, Scene
 from elbowroom.world import World
 

@@ -7,12 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from elbowroom import figures
+from elbowroom._core import PaperPlan
 from elbowroom.errors import NotFound
 from elbowroom.free_space import FreeSpace, free_space
 from elbowroom.paper.printed import TASKS, PrintedTask
 from elbowroom.paper.report import as_markdown
 from elbowroom.paper.trial import Trial
-from elbowroom.plan import Plan, plan_as_in_paper
+from elbowroom.plan import plan_as_in_paper
 from elbowroom.scene import Scene
 
 SCENES = ("paper-standin", "paper-table1", "paper-empty")
@@ -108,14 +109,14 @@ def _try(
     )
 
 
-def _plan_or_none(scene: Scene, task: PrintedTask, *, planner_seed: int, planner: str) -> Plan | None:
+def _plan_or_none(scene: Scene, task: PrintedTask, *, planner_seed: int, planner: str) -> PaperPlan | None:
     try:
         return plan_as_in_paper(scene, task=task.name, planner=planner, seed=planner_seed)  # type: ignore[arg-type]
     except NotFound:
         return None
 
 
-def _draw(plan: Plan, space: FreeSpace, task: PrintedTask, folder: Path) -> list[Path]:
+def _draw(plan: PaperPlan, space: FreeSpace, task: PrintedTask, folder: Path) -> list[Path]:
     """Figures 6 to 12 for the first task, 13 to 19 for the second."""
     drawn = [
         figures.tip_path(plan, space),

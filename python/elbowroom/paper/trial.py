@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from elbowroom._core import PaperPlan
 from elbowroom.free_space import FreeSpace
 from elbowroom.paper.printed import PrintedTask
-from elbowroom.plan import Plan
 from elbowroom.scene import Scene
 
 
@@ -22,8 +22,8 @@ class Trial:
     task: PrintedTask
     step: float
     steps_without_path: tuple[float, ...]
-    dstar: Plan | None
-    swarm: Plan | None
+    dstar: PaperPlan | None
+    swarm: PaperPlan | None
     met_optimum: int
     jumped: int
     seeds: int

@@ -43,7 +43,7 @@ pub(crate) use limits::motion_limits;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
-pub use plan::{Effort, NoPath, Plan, PlanError};
+pub use plan::{Effort, NoPath, Plan, PlanError, gap};
 pub use planner::Planner;
 pub use settings::{Objective, Pace, PlanSettings};
 pub use swarms::{CbpsoSettings, Initialisation, NscPsoSettings, PsoSettings};

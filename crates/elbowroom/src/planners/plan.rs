@@ -51,12 +51,16 @@ impl Plan {
     /// How much more it costs than the lower bound, as a share of it: no motion is better by more. `None` where there
     /// is no bound.
     pub fn gap(&self) -> Option<f64> {
-        let bound = self.lower_bound?;
-        if self.cost <= bound {
-            return Some(0.0);
-        }
-        (bound > 0.0).then(|| self.cost / bound - 1.0)
+        gap(self.cost, self.lower_bound?)
     }
+}
+
+/// How much more `cost` is than `bound`, as a share of it; `None` where a bound of 0 or less says nothing.
+pub fn gap(cost: f64, bound: f64) -> Option<f64> {
+    if cost <= bound {
+        return Some(0.0);
+    }
+    (bound > 0.0).then(|| cost / bound - 1.0)
 }
 
 /// The proof that no motion does a task: what can be reached from the start lies within cells whose walls are

@@ -1,0 +1,30 @@
+//! Arrays that are made when they are first asked for.
+
+use numpy::ndarray::{Array, Dimension};
+use numpy::{IntoPyArray, PyArray, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
+
+/// An array made once, that nobody can write to: everyone who asks is handed the same.
+pub(crate) struct Once<A>(PyOnceLock<Py<A>>);
+
+impl<A> Once<A> {
+    pub(crate) const fn new() -> Self {
+        Self(PyOnceLock::new())
+    }
+}
+
+impl<D: Dimension> Once<PyArray<f64, D>> {
+    pub(crate) fn get<'py>(
+        &self,
+        py: Python<'py>,
+        make: impl FnOnce() -> Array<f64, D>,
+    ) -> Bound<'py, PyArray<f64, D>> {
+        let made = self.0.get_or_init(py, || {
+            let array = make().into_pyarray(py);
+            array.readwrite().make_nonwriteable();
+            array.unbind()
+        });
+        made.bind(py).clone()
+    }
+}

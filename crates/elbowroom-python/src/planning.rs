@@ -1,0 +1,152 @@
+//! From a task to a plan.
+
+use elbowroom::planners::{self, OptionValue, Pace, PlanSettings, Planner};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors;
+use crate::plan::{Plan, Question, Setting};
+use crate::plan_kept;
+use crate::verdict::core_of;
+use crate::watch;
+
+/// The value of a planner's option as Python has it.
+#[derive(FromPyObject)]
+pub(crate) enum OptionPart {
+    Count(usize),
+    Word(String),
+}
+
+impl From<OptionPart> for OptionValue {
+    fn from(part: OptionPart) -> Self {
+        match part {
+            OptionPart::Count(count) => Self::Count(count),
+            OptionPart::Word(word) => Self::Word(word),
+        }
+    }
+}
+
+/// A planner's name, its options with their defaults, and which of them is its budget, if any.
+type Known<'py> = (&'static str, Bound<'py, PyDict>, Option<&'static str>);
+
+/// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
+#[pyfunction]
+pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
+    let known = |planner: &Planner| Ok((planner.name(), options_of(py, planner)?, planner.budget()));
+    Planner::all().iter().map(known).collect()
+}
+
+/// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.
+///
+/// Raises:
+///     BadSetting: There is no such planner, option or value.
+#[pyfunction]
+pub(crate) fn planner_options<'py>(
+    py: Python<'py>,
+    planner: &str,
+    options: Vec<(String, OptionPart)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    options_of(py, &by_name(py, planner, options)?)
+}
+
+fn options_of<'py>(py: Python<'py>, planner: &Planner) -> PyResult<Bound<'py, PyDict>> {
+    let options = PyDict::new(py);
+    for (name, value) in planner.options() {
+        match value {
+            OptionValue::Count(count) => options.set_item(name, count)?,
+            OptionValue::Word(word) => options.set_item(name, word)?,
+        }
+    }
+    Ok(options)
+}
+
+fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) -> PyResult<Planner> {
+    let options: Vec<(String, OptionValue)> =
+        options.into_iter().map(|(name, value)| (name, value.into())).collect();
+    Planner::by_name(planner, &options).map_err(|error| errors::setting(py, "planner", &error.to_string()))
+}
+
+/// Return a plan for the task called ``task`` of ``scene``.
+///
+/// Raises:
+///     UnknownTask: The scene has no such task.
+///     NotFree: Start or goal is not free.
+///     NoPath: It is proved that no motion does the task.
+///     NotFound: The certified edges do not connect them.
+///     TimedOut: The timeout came first.
+///     BadSetting: A setting makes no sense, or the duration is too short.
+#[pyfunction]
+#[pyo3(signature = (scene, task, *, planner, objective, seed, options, duration=None, gap=None, timeout=None, on_stage=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
+pub(crate) fn plan(
+    py: Python<'_>,
+    scene: &Bound<'_, PyAny>,
+    task: &str,
+    planner: &str,
+    objective: &str,
+    seed: u64,
+    options: Vec<(String, OptionPart)>,
+    duration: Option<f64>,
+    gap: Option<f64>,
+    timeout: Option<f64>,
+    on_stage: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Plan> {
+    let core = core_of(scene)?;
+    let core = core.get();
+    let asked = core.task(py, task)?;
+    let objective = plan_kept::objective(objective).ok_or_else(|| {
+        let message = format!("no objective is called '{objective}'; tip, joint or time");
+        errors::setting(py, "objective", &message)
+    })?;
+    let planner = by_name(py, planner, options)?;
+    let pace = duration.map_or(Pace::Fastest, Pace::Duration);
+    let settings = PlanSettings { objective, pace, seed, gap };
+    let work = |watch: &watch::Watch| planners::plan(&core.scene, asked, &planner, &settings, watch);
+    let (result, timings) = watch::run(py, timeout, on_stage, work)?;
+    let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
+    let question = Question {
+        scene: scene.clone().unbind(),
+        task: task.to_owned(),
+        planner: planner.name().to_owned(),
+        settings: told(&planner, &settings),
+        seed,
+        objective,
+    };
+    Plan::new(py, question, plan, watch::told(timings))
+}
+
+/// The settings as a plan tells them.
+fn told(planner: &Planner, settings: &PlanSettings) -> Vec<(String, Setting)> {
+    let duration = match settings.pace {
+        Pace::Fastest => Setting::Word("fastest".to_owned()),
+        Pace::Duration(seconds) => Setting::Number(seconds),
+    };
+    let mut told = vec![("mode", Setting::Word("verified".to_owned())), ("duration", duration)];
+    told.extend(settings.gap.map(|gap| ("gap", Setting::Number(gap))));
+    told.extend(planner.options().into_iter().map(|(name, value)| (name, value.into())));
+    told.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+}
+
+impl From<OptionValue> for Setting {
+    fn from(value: OptionValue) -> Self {
+        match value {
+            OptionValue::Count(count) => Self::Count(count),
+            OptionValue::Word(word) => Self::Word(word),
+        }
+    }
+}
+
+/// By which share of ``lower_bound`` ``cost`` is above it; ``None`` where that says nothing.
+#[pyfunction]
+pub(crate) fn gap(cost: f64, lower_bound: f64) -> Option<f64> {
+    planners::gap(cost, lower_bound)
+}
+
+/// What planners take for motion limits that a scene does not state, by rate.
+pub(crate) fn assumed_limits(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+    let limits = PyDict::new(py);
+    limits.set_item("velocity", planners::ASSUMED_LIMITS.velocity)?;
+    limits.set_item("acceleration", planners::ASSUMED_LIMITS.acceleration)?;
+    limits.set_item("jerk", planners::ASSUMED_LIMITS.jerk)?;
+    Ok(limits)
+}

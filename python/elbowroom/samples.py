@@ -1,0 +1,56 @@
+"""A motion at instants."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from elbowroom._core import Motion
+from elbowroom.errors import BadSetting
+from elbowroom.scene import Scene
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """A motion at instants ``t`` (s): joint positions, velocities, accelerations and jerks (rad, rad/s, ...), shape
+    ``(n, joints)`` each, and where the links end (m), base first, shape ``(n, links, 2)``.
+    """
+
+    t: Floats
+    q: Floats
+    v: Floats
+    a: Floats
+    j: Floats
+    link_ends: Floats
+
+    @property
+    def tip(self) -> Floats:
+        """Where the tip is, shape ``(n, 2)`` (m)."""
+        return self.link_ends[:, -1]
+
+
+def sampled(scene: Scene, motion: Motion, t: ArrayLike) -> Samples:
+    """Return ``motion`` of the arm of ``scene`` at the instants ``t``, shape ``(n,)`` (s); beyond its ends the arm
+    stands.
+    """
+    times = np.ascontiguousarray(np.atleast_1d(t), dtype=np.float64)
+    q, v, a, j = motion.sample(times)
+    return Samples(times, q, v, a, j, scene.core.link_ends(q))
+
+
+def every(scene: Scene, motion: Motion, period: float) -> Samples:
+    """Return ``motion`` every ``period`` (s), both ends included; the times count from 0 s.
+
+    Raises:
+        BadSetting: The period is not finite, or not greater than 0.
+    """
+    if not (math.isfinite(period) and period > 0.0):
+        raise BadSetting(f"period is {period} s, it must be finite and greater than 0", setting="period")
+    duration = motion.duration
+    count = math.ceil(duration / period - 1e-9)
+    return sampled(scene, motion, np.minimum(period * np.arange(count + 1), duration))
