@@ -195,7 +195,10 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
         PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => not_found(py, &message, None),
         PlanError::Stopped => timed_out(py, timeout),
-        PlanError::GoalNode(_) | PlanError::Motion(_) | PlanError::Refused(_) => internal(py, &message),
+        PlanError::BelowBound { .. }
+        | PlanError::GoalNode(_)
+        | PlanError::Motion(_)
+        | PlanError::Refused(_) => internal(py, &message),
     }
 }
 

@@ -1,5 +1,6 @@
 //! The one way into all planners.
 
+use super::plan::check_bound;
 use super::planner::Planner;
 use super::posture_true::Paths;
 use super::settings::{Pace, PlanSettings};
@@ -21,6 +22,20 @@ pub fn plan(
         return Err(PlanError::Moving { obstacle, name: scene.obstacles()[obstacle].name.clone() });
     }
     check(planner, settings)?;
+    let plan = by(planner, scene, task, settings, monitor)?;
+    if let Some(bound) = plan.lower_bound {
+        check_bound(plan.cost, bound)?;
+    }
+    Ok(plan)
+}
+
+fn by(
+    planner: &Planner,
+    scene: &Scene,
+    task: &Task,
+    settings: &PlanSettings,
+    monitor: &impl Monitor,
+) -> Result<Plan, PlanError> {
     let over = |paths: Paths<'_>| {
         let scene = scene.two_link().map_err(|error| match error {
             TwoLinkError::Links { found } => PlanError::OtherArm { planner: planner.name(), links: found },

@@ -55,6 +55,20 @@ impl Plan {
     }
 }
 
+/// Share by which rounding may put a cost below its bound.
+const BOUND_ROUNDING: f64 = 1e-9;
+
+/// Refuses a `cost` below what was proved to be the least: one of the two is wrong.
+///
+/// # Errors
+/// [`PlanError::BelowBound`]
+pub(super) fn check_bound(cost: f64, bound: f64) -> Result<(), PlanError> {
+    if cost < bound * (1.0 - BOUND_ROUNDING) {
+        return Err(PlanError::BelowBound { cost, bound });
+    }
+    Ok(())
+}
+
 /// How much more `cost` is than `bound`, as a share of it; `None` where a bound of 0 or less says nothing.
 pub fn gap(cost: f64, bound: f64) -> Option<f64> {
     if cost <= bound {
@@ -188,6 +202,16 @@ pub enum PlanError {
         /// What was asked.
         gap: f64,
     },
+    /// A fault of ours: the motion costs less than what was proved to be the least.
+    #[error(
+        "the motion costs {cost}, less than the {bound} that was proved to be the least: one of the two is wrong"
+    )]
+    BelowBound {
+        /// Of the motion, in terms of the objective (m, rad or s).
+        cost: f64,
+        /// What was proved (m, rad or s).
+        bound: f64,
+    },
     /// The monitor stopped it.
     #[error("stopped before a path was found")]
     Stopped,
@@ -200,4 +224,18 @@ pub enum PlanError {
     /// The verifier refuses straight turns that the planner certified.
     #[error("the verifier refuses certified turns: {:?}", .0.violations)]
     Refused(Box<Verdict>),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cost_below_its_bound_is_an_error_and_no_gap_of_zero() {
+        assert_eq!(check_bound(2.0, 4.0), Err(PlanError::BelowBound { cost: 2.0, bound: 4.0 }));
+        assert_eq!(check_bound(1.0 - 1e-8, 1.0), Err(PlanError::BelowBound { cost: 1.0 - 1e-8, bound: 1.0 }));
+        for (cost, bound) in [(1.0 - 1e-10, 1.0), (1.0, 1.0), (0.0, 0.0), (2.0, 1.0)] {
+            assert_eq!(check_bound(cost, bound), Ok(()));
+        }
+    }
 }
