@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import copy
 import pickle
 from dataclasses import replace
 from pathlib import Path
@@ -93,3 +94,26 @@ def test_a_scene_built_in_code_is_checked_too(standin: er.Scene, change: dict[st
     with pytest.raises(er.SceneError) as caught:
         replace(standin, **change)
     assert (caught.value.key, caught.value.line) == (key, None)
+
+
+def test_a_scene_changed_in_code_forgets_its_file(scenes: Path) -> None:
+    scene = er.Scene.load(scenes / "paper-standin.yaml")
+    moved = replace(scene, tasks={"first": er.Task(start=(0.22, 0.23), goal=(-0.45, -0.15))})
+    assert scene.file is not None
+    assert (moved.file, moved.locations) == (None, {})
+    with pytest.raises(er.NotFree) as caught:
+        er.plan(moved, task="first")
+    assert "yaml" not in str(caught.value)
+    for same in (pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)):
+        assert (same, same.file, same.locations) == (scene, scene.file, scene.locations)
+
+
+def test_the_hash_is_of_what_the_scene_says(scenes: Path) -> None:
+    scene = er.Scene.load(scenes / "paper-standin.yaml")
+    again = er.Scene.parse((scenes / "paper-standin.yaml").read_text() + "\n# the same\n", file="other.yaml")
+    assert scene.sha256 == again.sha256
+    assert replace(scene, obstacles=list(scene.obstacles)).sha256 == scene.sha256
+    finer = replace(scene, grid=replace(scene.grid, step=0.005))
+    other_name = replace(scene, obstacles=[replace(scene.obstacles[0], name="other"), *scene.obstacles[1:]])
+    assert len({scene.sha256, finer.sha256, other_name.sha256, replace(scene, obstacles=()).sha256}) == 4
+    assert len({er.Scene.load(file).sha256 for file in scenes.glob("*.yaml")}) == len(list(scenes.glob("*.yaml")))

@@ -27,6 +27,7 @@ def as_json(plan: AnyPlan) -> dict[str, Any]:
     return {
         "version": __version__,
         "scene": plan.scene.file,
+        "scene_sha256": plan.scene.sha256,
         "task": plan.task,
         "planner": plan.planner,
         "settings": plan.settings,

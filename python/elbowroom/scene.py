@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, is_dataclass
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
@@ -146,9 +148,12 @@ class Scene:
     grid: Grid
     obstacles: Sequence[Circle | Polygon] = ()
     tasks: Mapping[str, Task] = field(default_factory=dict)
-    file: str | None = None
-    locations: Mapping[tuple[str, str], tuple[int, int]] = field(default_factory=dict, repr=False, compare=False)
-    """Line and column of each (task, "start" or "goal") in the file."""
+    file: str | None = field(default=None, init=False, compare=False)
+    """What the text is called that it was read from; None if it was made, or changed, in code."""
+    locations: Mapping[tuple[str, str], tuple[int, int]] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
+    """Line and column of each (task, "start" or "goal") in that text; none if there is none."""
     core: _core.Scene = field(init=False, repr=False, compare=False)
     """The same scene as the core holds it."""
 
@@ -157,7 +162,21 @@ class Scene:
         object.__setattr__(self, "core", core)
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuilt, ({part.name: getattr(self, part.name) for part in fields(self) if part.init},)
+        parts = {part.name: getattr(self, part.name) for part in fields(self) if part.init}
+        return _rebuilt, (parts, self.file, self.locations)
+
+    @property
+    def sha256(self) -> str:
+        """Hash of what the scene says, in hexadecimal: arm, grid, obstacles and tasks, wherever they come from."""
+        parts = {part.name: getattr(self, part.name) for part in fields(self) if part.init}
+        text = json.dumps({name: _plain(part) for name, part in parts.items()}, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def _read_from(self, file: str | None, locations: Mapping[tuple[str, str], tuple[int, int]]) -> Scene:
+        """The same scene as read from a text."""
+        object.__setattr__(self, "file", file)
+        object.__setattr__(self, "locations", locations)
+        return self
 
     @classmethod
     def load(cls, path: str | Path) -> Scene:
@@ -198,13 +217,25 @@ class Scene:
             grid=Grid(**parts["grid"]),
             obstacles=tuple(_obstacle(part) for part in parts["obstacles"]),
             tasks=tasks,
-            file=file,
-            locations=located,
-        )
+        )._read_from(file, located)
 
 
-def _rebuilt(parts: dict[str, Any]) -> Scene:
-    return Scene(**parts)
+def _rebuilt(parts: dict[str, Any], file: str | None, locations: Mapping[tuple[str, str], tuple[int, int]]) -> Scene:
+    return Scene(**parts)._read_from(file, locations)
+
+
+def _plain(part: Any) -> Any:
+    """A part of a scene in dictionaries, lists and numbers: equal parts give the same."""
+    if is_dataclass(part):
+        return {one.name: _plain(getattr(part, one.name)) for one in fields(part)}
+    if isinstance(part, Mapping):
+        return {str(name): _plain(value) for name, value in part.items()}
+    if part is None or isinstance(part, str | bool):
+        return part
+    try:
+        return float(part)
+    except TypeError:
+        return [_plain(value) for value in part]
 
 
 def _obstacle(part: dict[str, Any]) -> Circle | Polygon:

@@ -100,7 +100,7 @@ def _runs(trials: Sequence[Trial]) -> str:
     ]
     for trial in trials:
         grid = f"{trial.step * 100:g}"
-        name = Path(trial.scene.file or "").stem
+        name = trial.name
         if trial.dstar is None or trial.swarm is None:
             rows.append(f"| {name} | {trial.task.name} | {grid} | not found | not found | | | |")
             continue
@@ -162,7 +162,7 @@ def _of(trials: Sequence[Trial], scene: str, task: str) -> Trial:
 
 
 def _named(trial: Trial, scene: str) -> bool:
-    return Path(trial.scene.file or "").stem == scene
+    return trial.name == scene
 
 
 def _cost(trial: Trial) -> str:

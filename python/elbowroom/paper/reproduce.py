@@ -45,7 +45,7 @@ def reproduce(out: Path, *, seed: int = 0, seeds: int = 100, show: Callable[[str
         maps[name] = (space, _draw_maps(scene, space, folder))
         for task in TASKS:
             tell(f"{name}: task {task.name}")
-            trials.append(_try(scene, space, task, folder, seed=seed, seeds=seeds, tell=tell))
+            trials.append(_try(name, scene, space, task, folder, seed=seed, seeds=seeds, tell=tell))
     report = out / "report.md"
     report.write_text(as_markdown(trials, maps, seed=seed, folder=out), encoding="utf-8")
     return report
@@ -61,6 +61,7 @@ def _draw_maps(scene: Scene, space: FreeSpace, folder: Path) -> list[Path]:
 
 
 def _try(
+    name: str,
     scene: Scene,
     space: FreeSpace,
     task: PrintedTask,
@@ -77,11 +78,11 @@ def _try(
             break
         without_path.append(scene.grid.step)
         scene = replace(scene, grid=replace(scene.grid, step=step))
-        tell(f"{scene.file}: task {task.name} on a {step * 100:g} cm grid")
+        tell(f"{name}: task {task.name} on a {step * 100:g} cm grid")
         dstar = _plan_or_none(scene, task, planner_seed=seed, planner="dstar")
     if dstar is None:
         without_path.append(scene.grid.step)
-        return Trial(scene, space, task, scene.grid.step, tuple(without_path), None, None, 0, 0, 0, ())
+        return Trial(name, scene, space, task, scene.grid.step, tuple(without_path), None, None, 0, 0, 0, ())
     swarm = plan_as_in_paper(scene, task=task.name, seed=seed)
     # On a fine grid one run has hundreds of times the work.
     counted = seeds if not without_path else min(seeds, 3)
@@ -90,11 +91,12 @@ def _try(
         plan = plan_as_in_paper(scene, task=task.name, seed=other)
         met += abs(plan.cost - dstar.cost) <= 1e-9 * dstar.cost
         jumped += bool(plan.jumps)
-    tell(f"{scene.file}: drawing task {task.name}")
+    tell(f"{name}: drawing task {task.name}")
     if without_path:
         space = free_space(scene)
     pictures = _draw(swarm, space, task, folder)
     return Trial(
+        name,
         scene,
         space,
         task,

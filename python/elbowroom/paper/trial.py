@@ -17,6 +17,7 @@ class Trial:
     ``step`` (m).
     """
 
+    name: str
     scene: Scene
     space: FreeSpace
     task: PrintedTask
