@@ -16,7 +16,7 @@ from typing import Any
 
 from bench.clock import ROOT
 
-ROUNDS = 9
+ROUNDS = 5
 """Pairs of runs of each piece of work."""
 
 SCENES = ROOT / "scenes"

@@ -1,6 +1,5 @@
 //! The obstacles nearest to the arm, for many configurations.
 
-use crate::arm::TwoLink;
 use crate::geometry::{Circle, Segment};
 use crate::path::CERTIFIED_CLEARANCE;
 use crate::scene::{Shape, TwoLinkScene};
@@ -36,14 +35,6 @@ impl Nearest {
         });
         Some(suspects.map(move |i| usize::from(near[i])))
     }
-}
-
-/// [`motion_bounds`](crate::path::motion_bounds) of two links: without a list, for it is asked of every edge.
-pub(super) fn motion_bounds(arm: &TwoLink, from: &[f64; 2], to: &[f64; 2]) -> [f64; 2] {
-    let [l1, l2] = arm.lengths();
-    let (turn1, turn2) = (to[0] - from[0], to[1] - from[1]);
-    let first = l1 * turn1.abs();
-    [first, first + l2 * (turn1 + turn2).abs()]
 }
 
 fn sum(here: f32, there: f32) -> f64 {

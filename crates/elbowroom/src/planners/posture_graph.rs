@@ -1,10 +1,9 @@
-use super::nearest::motion_bounds;
 use super::pairs::joint_path;
 use super::sheets::{Edge, Kept, Record, Sheets, direct, to_edge};
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
-use crate::path::{JointPath, straight_move_clears, straight_move_is_free};
+use crate::path::{JointPath, motion_bounds_of_two, straight_move_clears, straight_move_is_free};
 use crate::scene::TwoLinkScene;
 use crate::search::Graph;
 
@@ -218,7 +217,7 @@ impl<'a> PostureGraph<'a> {
     fn is_edge(&self, from: &Record, to: &Record) -> bool {
         let arm = self.scene.arm();
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
-        let bounds = motion_bounds(arm, &from.q, &end);
+        let bounds = motion_bounds_of_two(arm.lengths(), &from.q, &end);
         if from.nearest.are_enough_with(&to.nearest, bounds) {
             return true;
         }
