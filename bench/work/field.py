@@ -139,7 +139,7 @@ def measure() -> Section:
             ours = np.fromfile(out).reshape(points, points)
             arguments = (free, goal, ours, runs)
             entries = [
-                Entry("elbowroom, one core", statistics.median(times), f"{int(np.isfinite(ours).sum()):,} points"),
+                Entry("elbowroom D*, one core", statistics.median(times), f"{int(np.isfinite(ours).sum()):,} points"),
                 attempt("scipy csgraph.dijkstra", partial(by_scipy, *arguments)),
                 attempt("scikit-image MCP_Geometric", partial(by_skimage, *arguments)),
                 attempt("scikit-fmm distance", partial(by_skfmm, *arguments)),
@@ -160,7 +160,7 @@ def measure() -> Section:
     )
     words = """
 The cost-to-go from the goal of the first task to every point where the tip may stand in some posture: eight
-neighbours, corners may be cut. All get the same mask; making a graph or an array of costs of it is left out for
-all. Fields are compared point by point.
+neighbours, corners may be cut. Ours is D* from scratch, which planners run, and which can repair what it finds. All
+get the same mask; making a graph or an array of costs of it is left out for all. Fields are compared point by point.
 """
     return Section("field", "Cost-to-go field", words.strip(), comparisons, goals=[goal_row])

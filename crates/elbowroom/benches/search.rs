@@ -7,7 +7,12 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use elbowroom::search::{Dstar, Graph, Lattice, Progress, Until, dijkstra, wavefront};
+use elbowroom::search::{Dstar, Graph, Progress, Until, dijkstra};
+use lattice::Lattice;
+
+#[path = "../tests/lattice/mod.rs"]
+#[expect(dead_code, reason = "shared with tests")]
+mod lattice;
 
 const SIDE: usize = 1001;
 const STEP: f64 = 0.001;
@@ -48,10 +53,6 @@ fn from_scratch(criterion: &mut Criterion) {
     for side in [101, SIDE] {
         let map = free(side);
         assert_equal(&field(&map, 0).field(), &map, 0);
-        assert_equal(&wavefront(&map, &[(0, 0.0)]).expect("the goal is a cell"), &map, 0);
-        group.bench_with_input(BenchmarkId::new("wavefront", side), &map, |bencher, map| {
-            bencher.iter(|| wavefront(black_box(map), &[(0, 0.0)]));
-        });
         group.bench_with_input(BenchmarkId::new("dstar", side), &map, |bencher, map| {
             bencher.iter(|| field(black_box(map), 0));
         });

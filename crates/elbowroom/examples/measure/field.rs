@@ -1,6 +1,7 @@
-use elbowroom::search::{Dstar, GoalError, Graph, Lattice, Progress, Until, wavefront};
+use elbowroom::search::{Dstar, GoalError, Graph, Progress, Until};
 use serde_json::json;
 
+use super::lattice::Lattice;
 use super::{Outcome, runs};
 
 /// D*'s cost-to-go of every cell from scratch.
@@ -16,8 +17,8 @@ pub(crate) fn from_scratch(cells: &Lattice, goal: usize) -> Result<Dstar, GoalEr
 pub(crate) fn measure(mask: &str, side: usize, goal: usize, runs: usize, out: &str) -> Outcome {
     let free = std::fs::read(mask)?.into_iter().map(|byte| byte == 1).collect();
     let cells = Lattice::new(side, 1.0, free);
-    let (times, field) = runs::times(runs, || wavefront(&cells, &[(goal, 0.0)]));
-    let field = field?;
+    let (times, field) = runs::times(runs, || from_scratch(&cells, goal));
+    let field = field?.field();
     if out != "-" {
         std::fs::write(out, field.iter().flat_map(|cost| cost.to_le_bytes()).collect::<Vec<u8>>())?;
     }

@@ -9,6 +9,9 @@
 
 mod edges;
 mod field;
+#[path = "../../tests/lattice/mod.rs"]
+#[expect(dead_code, reason = "shared with tests")]
+mod lattice;
 mod map;
 mod online;
 mod plan;

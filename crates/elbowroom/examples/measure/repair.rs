@@ -1,10 +1,11 @@
 use elbowroom::free_space::FreeSpace;
 use elbowroom::geometry::{Circle, Point, Polygon};
 use elbowroom::scene::{Place, Scene, Shape, TwoLinkError};
-use elbowroom::search::{Graph, Lattice, Progress, Until};
+use elbowroom::search::{Graph, Progress, Until};
 use serde_json::json;
 
 use super::field::from_scratch;
+use super::lattice::Lattice;
 use super::{Outcome, runs, scenes};
 
 /// D* over the union of both maps after one obstacle moved by a cell, against D* from scratch, obstacle by

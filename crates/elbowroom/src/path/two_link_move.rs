@@ -119,7 +119,8 @@ mod tests {
         for _ in 0..10_000 {
             let lengths = [within(&mut rng, 0.01, 2.0), within(&mut rng, 0.01, 2.0)];
             let [from, to] = [(); 2].map(|()| [(); 2].map(|()| within(&mut rng, -7.0, 7.0)));
-            let arm = Arm::new(Point::new(0.0, 0.0), lengths.to_vec(), 0.0, vec![Joint::CONTINUOUS; 2], false);
+            let arm =
+                Arm::new(Point::new(0.0, 0.0), lengths.to_vec(), 0.0, vec![Joint::CONTINUOUS; 2], false);
             let expected = motion_bounds(&arm.unwrap(), &from, &to);
             assert_eq!(expected[..], motion_bounds_of_two(lengths, &from, &to));
         }

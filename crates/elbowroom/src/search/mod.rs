@@ -5,15 +5,11 @@ mod dstar;
 mod first_wave;
 mod goal;
 mod graph;
-mod lattice;
 mod nodes;
 mod open_list;
 mod ring;
-mod wavefront;
 
 pub use dijkstra::dijkstra;
 pub use dstar::{Dstar, NodeState, Progress, Until};
 pub use goal::GoalError;
 pub use graph::Graph;
-pub use lattice::Lattice;
-pub use wavefront::wavefront;

@@ -1,13 +1,15 @@
+//! A grid as a graph, for tests, benchmarks and the example `measure`.
+
 use std::f64::consts::SQRT_2;
 
-use super::Graph;
+use elbowroom::search::Graph;
 
 /// Nodes in rows and columns, free or not; each free one has its free neighbours along rows, columns and diagonals, corners
 /// may be cut.
 ///
 /// What can be changed is which nodes are free.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Lattice {
+pub(crate) struct Lattice {
     columns: usize,
     rows: usize,
     step: f64,
@@ -23,7 +25,7 @@ const AROUND: [(isize, isize); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (
 
 impl Lattice {
     /// Rows of `columns` nodes, `step` apart (m), row after row in `free`; a last row that is not full is left out.
-    pub fn new(columns: usize, step: f64, mut free: Vec<bool>) -> Self {
+    pub(crate) fn new(columns: usize, step: f64, mut free: Vec<bool>) -> Self {
         let rows = free.len().checked_div(columns).unwrap_or(0);
         free.truncate(rows * columns);
         let offsets = AROUND.map(|(dx, dy)| dy * columns as isize + dx);
@@ -39,12 +41,12 @@ impl Lattice {
     }
 
     /// Whether `node` is free; false beyond the last one.
-    pub fn is_free(&self, node: usize) -> bool {
+    pub(crate) fn is_free(&self, node: usize) -> bool {
         self.free.get(node).copied().unwrap_or(false)
     }
 
     /// Frees or blocks `node`; numbers that are no node are passed over.
-    pub fn set_free(&mut self, node: usize, free: bool) {
+    pub(crate) fn set_free(&mut self, node: usize, free: bool) {
         if node < self.free.len() {
             self.free[node] = free;
             self.open[node] = self.look(node);
