@@ -1,16 +1,16 @@
 //! Planning while the arm moves, among obstacles that move.
 
-mod escape;
-mod interval_search;
+mod evasion;
+mod evasion_by_sipp;
 mod known;
 mod placed;
 mod replanner;
-mod retreat;
 mod roadmap;
 mod routes;
 mod safe_intervals;
 mod search;
 mod settings;
+mod sipp;
 mod to_goal;
 mod update;
 mod world;

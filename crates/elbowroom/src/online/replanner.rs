@@ -142,7 +142,7 @@ impl Replanner {
                 None => self.keep(verdict),
             });
         }
-        let motion = search.retreat(&mut self.rng);
+        let motion = search.evade(&mut self.rng);
         let verdict = match search.certify(motion.clone()) {
             Ok(found) => return Ok(self.run(found, false)),
             Err(verdict) => *verdict,

@@ -4,10 +4,10 @@ use super::settings::SHORTEST;
 use crate::geometry::{Segment, Vector};
 use crate::scene::{Course, Obstacle, Scene};
 
-/// The links are to keep so much room (m), at times from `now` to `horizon` (s), among the obstacles of `scene` as they move.
+/// The links are to keep this `clearance` (m), at times from `now` to `horizon` (s), among the obstacles of `scene` as they move.
 pub(super) struct SafeIntervals<'a> {
     pub(super) scene: &'a Scene,
-    pub(super) room: f64,
+    pub(super) clearance: f64,
     pub(super) now: f64,
     pub(super) horizon: f64,
 }
@@ -30,7 +30,7 @@ impl SafeIntervals<'_> {
         let links: SmallVec<[Segment; 4]> = self.scene.arm().link_segments(q).collect();
         let obstacles = self.scene.obstacles();
         let mut still = obstacles.iter().filter(|obstacle| obstacle.motion.is_none());
-        if still.any(|obstacle| self.clearance(&links, obstacle, Vector::new(0.0, 0.0)) <= 0.0) {
+        if still.any(|obstacle| self.left(&links, obstacle, Vector::new(0.0, 0.0)) <= 0.0) {
             return never;
         }
         let mut touched: Vec<[f64; 2]> = Vec::new();
@@ -41,7 +41,7 @@ impl SafeIntervals<'_> {
                 Course::Absent => {}
                 course if course.is_unknown() => {
                     let seen = if let Course::Unknown { seen, .. } = course { *seen } else { 0.0 };
-                    let clearance = self.clearance(&links, obstacle, course.shift_at(self.now));
+                    let clearance = self.left(&links, obstacle, course.shift_at(self.now));
                     doubtful_from = doubtful_from.min(seen + clearance / motion.greatest_speed());
                 }
                 course => self.add_touched(&links, obstacle, course, &mut touched),
@@ -50,15 +50,15 @@ impl SafeIntervals<'_> {
         Standing { intervals: self.between(touched), doubtful_from }
     }
 
-    /// Room beyond what is to be kept (m), negative in contact.
-    fn clearance(&self, links: &[Segment], obstacle: &Obstacle, shift: Vector) -> f64 {
+    /// Clearance left beyond what is to be kept (m), negative in contact.
+    fn left(&self, links: &[Segment], obstacle: &Obstacle, shift: Vector) -> f64 {
         let distances = links
             .iter()
             .map(|link| obstacle.signed_distance_to_segment(Segment::new(link.a + -shift, link.b + -shift)));
-        distances.fold(f64::INFINITY, f64::min) - self.scene.arm().half_width() - self.room
+        distances.fold(f64::INFINITY, f64::min) - self.scene.arm().half_width() - self.clearance
     }
 
-    /// Steps as long as the clearance allows: no obstacle gets ahead farther than that in the time.
+    /// Steps as long as the clearance left allows: no obstacle gets ahead farther than that in the time.
     fn add_touched(
         &self,
         links: &[Segment],
@@ -70,7 +70,7 @@ impl SafeIntervals<'_> {
         let mut time = self.now;
         let mut since = None;
         while time < self.horizon {
-            let clearance = self.clearance(links, obstacle, course.shift_at(time));
+            let clearance = self.left(links, obstacle, course.shift_at(time));
             match since {
                 None if clearance <= 0.0 => since = Some(time),
                 Some(start) if clearance > 0.0 => {

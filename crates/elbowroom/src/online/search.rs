@@ -1,5 +1,5 @@
 use super::known::KnownScene;
-use super::settings::{FAR, HOLD, STANDS};
+use super::settings::{HOLD, LOOK_AHEAD, STANDS};
 use crate::trajectory::{Motion, Piece, SpeedLimits, State, TICK, brake};
 use crate::verify::{Trajectory, Verdict, VerifySettings, clear_until, verify};
 
@@ -73,7 +73,7 @@ impl Search<'_> {
 
     /// Until when the arm is safe that runs `motion` and then stands, as far as is looked ahead (s).
     pub(super) fn safe_until(&self, motion: &Motion) -> f64 {
-        self.clear_until(motion, FAR, false)
+        self.clear_until(motion, LOOK_AHEAD, false)
     }
 
     /// `motion`, if it is safe: a quick look first, for most are not.

@@ -4,7 +4,7 @@
 pub(super) const HOLD: f64 = 8.0;
 
 /// How far ahead is looked where the arm ends elsewhere than at a goal (s): staying clear so long is as good as for ever.
-pub(super) const FAR: f64 = 25.0;
+pub(super) const LOOK_AHEAD: f64 = 25.0;
 
 /// How far the arm may be off (rad, rad/s, rad/s²) from where its motion has it before the motion counts as lost, and from
 /// rest at a goal to count as there.
@@ -48,8 +48,8 @@ pub(super) const WORTH_LEAVING: f64 = 1.0;
 
 /// How to search for a way out in space and time.
 pub(super) struct Attempt {
-    /// The room that is kept (m), for what the motion will be off the way.
-    pub(super) room: f64,
+    /// The clearance that is kept (m), for what the motion will be off the way.
+    pub(super) clearance: f64,
     /// Between places that may be gone to (rad).
     pub(super) lattice: f64,
     /// Between control points of the motion (s): a motion with more time between them is faster, and farther off.
@@ -60,11 +60,11 @@ pub(super) struct Attempt {
 
 /// Quick ones first.
 pub(super) const ATTEMPTS: [Attempt; 5] = [
-    Attempt { room: 0.02, lattice: 0.1, control: 0.2, vigour: 0.95 },
-    Attempt { room: 0.01, lattice: 0.1, control: 0.4, vigour: 0.5 },
-    Attempt { room: 0.004, lattice: 0.05, control: 0.2, vigour: 0.95 },
-    Attempt { room: 0.001, lattice: 0.03, control: 0.2, vigour: 0.5 },
-    Attempt { room: 0.0005, lattice: 0.03, control: 0.4, vigour: 0.5 },
+    Attempt { clearance: 0.02, lattice: 0.1, control: 0.2, vigour: 0.95 },
+    Attempt { clearance: 0.01, lattice: 0.1, control: 0.4, vigour: 0.5 },
+    Attempt { clearance: 0.004, lattice: 0.05, control: 0.2, vigour: 0.95 },
+    Attempt { clearance: 0.001, lattice: 0.03, control: 0.2, vigour: 0.5 },
+    Attempt { clearance: 0.0005, lattice: 0.03, control: 0.4, vigour: 0.5 },
 ];
 
 /// How near to its greatest speed a joint is taken on such a way.

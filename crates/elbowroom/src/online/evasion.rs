@@ -44,7 +44,7 @@ impl Search<'_> {
         if until.is_infinite() {
             return None;
         }
-        let motion = self.retreat(rng);
+        let motion = self.evade(rng);
         (self.safe_until(&motion) > until + WORTH_LEAVING).then(|| self.safe(motion)).flatten()
     }
 
@@ -53,25 +53,25 @@ impl Search<'_> {
     ///
     /// Random ways come first, for mostly one of the first will do; then searches in space and time, which miss little: a
     /// quick one, and others where nothing is safe.
-    pub(super) fn retreat(&self, rng: &mut ChaCha8Rng) -> Motion {
+    pub(super) fn evade(&self, rng: &mut ChaCha8Rng) -> Motion {
         let stop = self.stop().unwrap_or_else(|| standing(&self.state.position, self.now, HOLD));
         let until = self.safe_until(&stop);
         let mut ways = Ways { rests: vec![(stop.clone(), until)], best: (stop, until) };
-        self.wander(0..TRIES, &mut ways, rng);
+        self.try_random(0..TRIES, &mut ways, rng);
         for (i, attempt) in ATTEMPTS.iter().enumerate() {
             if ways.is_best_possible() || (ways.is_safe() && i > 0) {
                 break;
             }
-            self.escape(attempt).into_iter().for_each(|(motion, until)| ways.consider(motion, until));
+            self.evade_by_sipp(attempt).into_iter().for_each(|(motion, until)| ways.consider(motion, until));
         }
         if !ways.is_safe() {
-            self.wander(TRIES..MOST_TRIES, &mut ways, rng);
+            self.try_random(TRIES..MOST_TRIES, &mut ways, rng);
         }
         ways.best.0
     }
 
     /// Straight turns to random places, from where the arm is or from where it could come to rest.
-    fn wander(&self, tries: Range<usize>, ways: &mut Ways, rng: &mut ChaCha8Rng) {
+    fn try_random(&self, tries: Range<usize>, ways: &mut Ways, rng: &mut ChaCha8Rng) {
         for i in tries {
             if ways.is_best_possible() || !(self.keep_going)() {
                 break;

@@ -1,14 +1,14 @@
-use super::interval_search::{Lattice, Stay, way_out};
 use super::safe_intervals::SafeIntervals;
 use super::search::Search;
-use super::settings::{Attempt, FAR, PACE};
+use super::settings::{Attempt, LOOK_AHEAD, PACE};
+use super::sipp::{Lattice, Stay, earliest_safe_place};
 use crate::arm::lerp_pair;
 use crate::trajectory::{Motion, spline_along, third_point};
 
 impl Search<'_> {
     /// A motion to where the arm can stay for good or, if there is no such place, the longest; and until when that is safe
     /// (s). None where the arm is in contact already, or will be before it can do anything.
-    pub(super) fn escape(&self, attempt: &Attempt) -> Option<(Motion, f64)> {
+    pub(super) fn evade_by_sipp(&self, attempt: &Attempt) -> Option<(Motion, f64)> {
         if !(self.keep_going)() {
             return None;
         }
@@ -20,13 +20,13 @@ impl Search<'_> {
         let speed = speeds.fold(f64::INFINITY, f64::min);
         let free = SafeIntervals {
             scene: self.known.all(),
-            room: attempt.room,
+            clearance: attempt.clearance,
             now: self.now + step,
-            horizon: self.now + FAR,
+            horizon: self.now + LOOK_AHEAD,
         };
         let start = <[f64; 2]>::try_from(third_point(self.state, step)).ok()?;
         let lattice = Lattice { step: attempt.lattice, time: attempt.lattice / speed };
-        let way = way_out(&free, &start, lattice, self.keep_going)?;
+        let way = earliest_safe_place(&free, &start, lattice, self.keep_going)?;
         let motion =
             spline_along(self.now, self.state, step, way.last()?.arrive, |time| place_at(&way, time))?;
         let until = self.safe_until(&motion);

@@ -36,7 +36,7 @@ struct Reached {
 ///
 /// Safe interval path planning (Phillips and Likhachev, 2011): who enters a place sooner in the same interval can do all
 /// that others can, for the arm may wait; so each interval is entered once. Turns are looked at only at their ends.
-pub(super) fn way_out(
+pub(super) fn earliest_safe_place(
     free: &SafeIntervals,
     start: &[f64; 2],
     lattice: Lattice,
@@ -118,7 +118,7 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_core::SeedableRng;
 
-    use super::{Lattice, TURNS, way_out};
+    use super::{Lattice, TURNS, earliest_safe_place};
     use crate::arm::{Arm, Joint, JointLimits, MotionLimits};
     use crate::geometry::{Circle, Point, Vector};
     use crate::grid::Grid;
@@ -163,13 +163,13 @@ mod tests {
         (Scene::new(arm, grid, obstacles, Vec::new()).unwrap(), start)
     }
 
-    fn clearance(scene: &Scene, q: &[f64; 2], time: f64) -> f64 {
+    fn clearance_at(scene: &Scene, q: &[f64; 2], time: f64) -> f64 {
         let now = still(scene, |_, obstacle| Some(obstacle.motion.as_ref()?.course().shift_at(time)));
         link_clearances(&now, q).into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// When a flood in time first gets to a cell that stays free, for arms that keep `room` (m).
-    fn flood(scene: &Scene, start: &[f64; 2], room: f64) -> Option<f64> {
+    /// When a flood in time first gets to a cell that stays free, for arms that keep `clearance` (m).
+    fn flood(scene: &Scene, start: &[f64; 2], clearance: f64) -> Option<f64> {
         let ticks = (HORIZON / TICK) as usize;
         let turn = (LATTICE.time / TICK).round() as usize;
         let mut free: std::collections::HashMap<[i32; 2], Vec<bool>> = Default::default();
@@ -177,7 +177,9 @@ mod tests {
             let line = free.entry(cell).or_insert_with(|| {
                 let q = [0, 1].map(|j| start[j] + LATTICE.step * f64::from(cell[j]));
                 let within = scene.arm().within_limits(&q);
-                (0..=ticks).map(|tick| within && clearance(scene, &q, TICK * tick as f64) > room).collect()
+                (0..=ticks)
+                    .map(|tick| within && clearance_at(scene, &q, TICK * tick as f64) > clearance)
+                    .collect()
             });
             (line[tick], line[tick..].iter().all(|free| *free))
         };
@@ -203,10 +205,10 @@ mod tests {
         let (mut found, mut lost) = (0, 0);
         for seed in 0..300 {
             let (scene, start) = case(seed);
-            let free = SafeIntervals { scene: &scene, room: ROOM, now: 0.0, horizon: HORIZON };
-            let way = way_out(&free, &start, LATTICE, &|| true);
+            let free = SafeIntervals { scene: &scene, clearance: ROOM, now: 0.0, horizon: HORIZON };
+            let way = earliest_safe_place(&free, &start, LATTICE, &|| true);
             let Some(way) = way else {
-                assert!(clearance(&scene, &start, 0.0) <= ROOM, "seed {seed}");
+                assert!(clearance_at(&scene, &start, 0.0) <= ROOM, "seed {seed}");
                 continue;
             };
             let last = way.last().unwrap();
@@ -227,7 +229,7 @@ mod tests {
                 for look in 0..=20 {
                     let time = stay.arrive + (leave - stay.arrive) * f64::from(look) / 20.0;
                     let is_last = stay.leave.is_infinite() && !stays;
-                    assert!(is_last || clearance(&scene, &stay.q, time) > ROOM - SLACK, "seed {seed}");
+                    assert!(is_last || clearance_at(&scene, &stay.q, time) > ROOM - SLACK, "seed {seed}");
                 }
             }
         }
