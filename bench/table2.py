@@ -26,7 +26,7 @@ EQUAL = "dstar-pso,dstar,optimal,pso,cbpso,nsc-pso,ik-pso"
 OWN = "dstar-pso,pso,pso:neighbourhood=ring,cbpso,nsc-pso,nsc-pso:initialisation=uniform,ik-pso"
 """With the budgets that they have by default, and two of them in another way."""
 
-LINKS = "dstar-pso,ik-pso,cbpso:evaluations=60000"
+LINKS = "guided-rrt-connect,ik-pso,cbpso:evaluations=60000"
 """On arms of more links."""
 
 LINK_SCENES = tuple(SCENES / f"{name}-links.yaml" for name in ("three", "five", "ten"))

@@ -19,7 +19,7 @@ from elbowroom.compare.row import Problem
 from elbowroom.compare.run import run
 from elbowroom.compare.worker import Batch
 from elbowroom.own_planners import OWN
-from elbowroom.planners import Choice, all_chosen, chosen, known, own_chosen
+from elbowroom.planners import Choice, all_chosen, chosen, known
 
 TESTS = Path(__file__).parent
 
@@ -262,9 +262,6 @@ def test_options_of_our_own_planners(scenes: Path) -> None:
     assert problem(chosen("dstar-pso:candidates=2"), scene, budget=2).settings == {"candidates": 2}
     with pytest.raises(er.BadSetting, match=r"planner dstar-pso:candidates=2 has candidates of its own and a budget"):
         problem(chosen("dstar-pso:candidates=2"), scene, budget=3)
-    assert own_chosen("dstar-pso:candidates=2") == chosen("dstar-pso:candidates=2")
-    with pytest.raises(er.BadSetting, match="ompl is a plug-in, which only compare runs; known: dstar-pso, "):
-        own_chosen("ompl")
 
 
 # Rows

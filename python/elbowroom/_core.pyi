@@ -28,12 +28,15 @@ __all__ = [
     "World",
     "__version__",
     "check_again",
+    "default_planner",
     "free_space",
     "gap",
     "interpolated",
+    "mismatch",
     "plan",
     "plan_again",
     "plan_as_in_paper",
+    "plan_proposed",
     "planner_options",
     "planners_known",
     "verdict_again",
@@ -384,8 +387,27 @@ def plan(
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan: ...
+def plan_proposed(
+    scene: scene.Scene,
+    task: str,
+    *,
+    planner: str,
+    settings: Sequence[tuple[str, int | float | str]],
+    objective: str,
+    seed: int,
+    motion: Motion | None = None,
+    configurations: NDArray[np.float64] | None = None,
+    evaluations: int | None = None,
+    convergence: Sequence[tuple[int, float]] | None = None,
+    timings: Sequence[tuple[str, float]],
+    duration: float | None = None,
+    timeout: float | None = None,
+    on_stage: Callable[[str], None] | None = None,
+) -> Plan: ...
 def plan_again(scene: scene.Scene, motion: Motion, kept: Mapping[str, Any]) -> Plan: ...
 def gap(cost: float, lower_bound: float) -> float | None: ...
+def default_planner(scene: scene.Scene) -> str: ...
+def mismatch(scene: scene.Scene, task: str, motion: Motion, posture_changes: Sequence[float]) -> str | None: ...
 def planner_options(planner: str, options: Sequence[tuple[str, int | str]]) -> dict[str, int | str]: ...
 def planners_known() -> list[tuple[str, dict[str, int | str], str | None]]: ...
 def interpolated(

@@ -134,6 +134,17 @@ class Refuted(ElbowroomError, ValueError):
     verdict: Verdict | None = None
 
 
+@dataclass(eq=False, repr=False, kw_only=True)
+class PlannerFault(ElbowroomError):
+    """A planner of somebody else's failed, or what it proposed does not hold.
+
+    ``planner`` is its name, ``verdict`` what the verifier says of its motion, None if that is not what is wrong.
+    """
+
+    planner: str
+    verdict: Verdict | None = None
+
+
 class TrajectoryError(ElbowroomError, ValueError):
     """A file or samples are no trajectory."""
 

@@ -6,27 +6,35 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Literal
 
-from elbowroom import _core
+from elbowroom import _core, plugins
 from elbowroom._core import PaperPlan, Plan
 from elbowroom.errors import BadSetting, NotFree, UnknownTask
-from elbowroom.own_planners import OwnOption, all_options
+from elbowroom.own_planners import OWN, all_options
+from elbowroom.plan_proposed import plan_proposed
+from elbowroom.plugins import Objective, Option, PlannerPlugin
 from elbowroom.scene import Scene
 from elbowroom.whole import check_whole
 
 PaperPlanner = Literal["dstar-pso", "dstar"]
-Objective = Literal["tip", "joint", "time"]
 AnyPlan = Plan | PaperPlan
 """What can be drawn and written to files, verified or not."""
 
 
 def only_task(scene: Scene, task: str | None) -> str:
-    """Return ``task``, or the scene's only one if None."""
-    if task is not None:
-        return task
+    """Return ``task``, or the scene's only one if None.
+
+    Raises:
+        UnknownTask: The scene has no such task, or more than one to choose from.
+    """
     known = list(scene.tasks)
+    listed = ", ".join(known) or "none"
+    if task is not None:
+        if task not in known:
+            message = f"no task is called '{task}'; tasks of this scene: {listed}"
+            raise UnknownTask(message, name=task, known=known)
+        return task
     if len(known) == 1:
         return known[0]
-    listed = ", ".join(known) or "none"
     raise UnknownTask(f"name the task to plan; tasks of this scene: {listed}", name="", known=known)
 
 
@@ -34,8 +42,8 @@ def plan(
     scene: Scene,
     *,
     task: str | None = None,
-    planner: str = "dstar-pso",
-    options: Mapping[str, OwnOption] | None = None,
+    planner: str | PlannerPlugin | None = None,
+    options: Mapping[str, Option] | None = None,
     objective: Objective = "tip",
     seed: int = 0,
     duration: float | None = None,
@@ -45,17 +53,21 @@ def plan(
 ) -> Plan:
     """Return a plan whose motion is proved to be safe.
 
-    The motion exists only because the verifier has accepted its polynomials. With two links the path is over
-    (place, posture): every step is certified free of contact, and the posture changes only through full stretch or
-    fold.
+    The motion exists only because the verifier has accepted its polynomials, whoever planned it. elbowroom's own
+    planners for two links lead the arm along paths over (place, posture): every step is certified free of contact, and
+    the posture changes only through full stretch or fold.
 
     Args:
         scene: Arm and obstacles.
         task: Which one; may be left out if there is only one.
-        planner: One of ``elbowroom.own_planners.OWN``.
+        planner: The name of one of elbowroom's own (``elbowroom.own_planners.OWN``) or of one that is installed as a
+            plug-in, or a callable like ``elbowroom.planners.PlannerPlugin``; None for ``dstar-pso`` with two links and
+            ``guided-rrt-connect`` with more. Where a callable or plug-in proposes positions, velocities and
+            accelerations the motion is taken as it is; else its rows are a path, and the motion along it is
+            elbowroom's.
         options: Those of the planner that shall differ from its defaults, such as ``{"candidates": 100}``.
         objective: What the choice goes by: ``tip`` travel, ``joint`` travel or ``time``.
-        seed: Of the swarm.
+        seed: Of all that is random.
         duration: How long the motion takes (s); None for as fast as the motion limits allow along the path.
         gap: For ``optimal``: go on until the cost is no more than this share above the lower bound, or the timeout, or
             nothing finer is left to try; the plan says what was reached.
@@ -70,20 +82,36 @@ def plan(
         TimedOut: The timeout came first.
         BadSetting: A setting makes no sense, the planner does not serve this arm, or the duration is too short for the
             motion limits.
+        PlannerFault: A callable or plug-in failed, or what it proposed is not safe or does not do the task.
     """
     check_whole("seed", seed)
-    chosen_options = all_options(planner, options or {})
-    if gap is not None and planner != "optimal":
-        raise BadSetting(f"gap is for the planner optimal, not for {planner}", setting="gap")
     task = only_task(scene, task)
+    asked = _core.default_planner(scene) if planner is None else planner
     try:
+        if not isinstance(asked, str) or asked not in OWN:
+            name, call = (asked, _plugin(asked)) if isinstance(asked, str) else (plugins.name_of(asked), asked)
+            if gap is not None:
+                message = f"gap is for planners that search in rounds, such as optimal, not for {name}"
+                raise BadSetting(message, setting="gap")
+            return plan_proposed(
+                scene,
+                task,
+                name=name,
+                planner=call,
+                options=options or {},
+                objective=objective,
+                seed=seed,
+                duration=duration,
+                timeout=timeout,
+                on_stage=on_stage,
+            )
         return _core.plan(
             scene,
             task,
-            planner=planner,
+            planner=asked,
             objective=objective,
             seed=seed,
-            options=list(chosen_options.items()),
+            options=list(all_options(asked, options or {}).items()),
             duration=duration,
             gap=gap,
             timeout=timeout,
@@ -91,6 +119,15 @@ def plan(
         )
     except NotFree as error:
         raise located(scene, error) from None
+
+
+def _plugin(name: str) -> PlannerPlugin:
+    point = plugins.entry_point(name)
+    assert point is not None
+    try:
+        return plugins.loaded(point)
+    except plugins.BrokenPlugin as error:
+        raise BadSetting(f"planner {name} {error}", setting="planner") from error
 
 
 def plan_as_in_paper(

@@ -1,86 +1,39 @@
-"""Planners by name: elbowroom's own, and those that other packages add as plug-ins.
+"""Planners as they are asked for in text: elbowroom's own, and those that other packages add as plug-ins.
 
 A plug-in is an entry point of the group ``elbowroom.planners``: a name and a callable, see ``PlannerPlugin``.
 """
 
 from __future__ import annotations
 
+import hashlib
 import inspect
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from importlib.metadata import EntryPoint, entry_points
-from typing import Any, Protocol
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
-from numpy.typing import ArrayLike
-
+from elbowroom import plugins
 from elbowroom._core import Plan, __version__
 from elbowroom.errors import BadSetting
 from elbowroom.own_planners import OWN, OwnOption, all_options
-from elbowroom.plan import Objective
 from elbowroom.plan import plan as own_plan
+from elbowroom.plugins import BrokenPlugin, Objective, Option, PlannerPlugin, Proposal
 from elbowroom.scene import Scene
 
-GROUP = "elbowroom.planners"
-"""The entry point group of plug-ins."""
-
-Option = str | int | float | bool
-
-
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Proposal:
-    """A trajectory that a planner proposes, and what it knows of its search; elbowroom's verifier judges it.
-
-    Attributes:
-        t: Times, ascending, shape ``(n,)`` (s).
-        q: Configurations, shape ``(n, joints)`` (rad); a continuous joint counts on instead of jumping by a turn.
-        v: Velocities, if known (rad/s): then the curve between rows is cubic, else linear.
-        a: Accelerations, if known (rad/s²): then it is quintic.
-        evaluations: How many candidates the planner judged; None if it does not count them.
-        lower_bound: No motion costs less, in terms of the objective; None where unknown.
-        timings: Seconds spent in each stage.
-        convergence: Evaluations made, and the best cost by then, each time that fell; None where not recorded.
-    """
-
-    t: ArrayLike
-    q: ArrayLike
-    v: ArrayLike | None = None
-    a: ArrayLike | None = None
-    evaluations: int | None = None
-    lower_bound: float | None = None
-    timings: Mapping[str, float] = field(default_factory=dict)
-    convergence: Sequence[tuple[int, float]] | None = None
-
-
-class PlannerPlugin(Protocol):
-    """What an entry point of the group ``elbowroom.planners`` has to be.
-
-    Keyword-only parameters beyond these, with a default that is text, a number or a bool, are the planner's options:
-    ``--planners name:option=value``. Its attribute ``version``, if it has one, is recorded in every row.
-    """
-
-    def __call__(
-        self, scene: Scene, task: str, *, seed: int, timeout: float | None, budget: int | None, objective: Objective
-    ) -> Plan | Proposal:
-        """Return a trajectory for ``task`` of ``scene``.
-
-        Args:
-            scene: Arm and obstacles; ``scene.core.link_clearances(q)`` gives exact clearances.
-            task: The name of one of its tasks.
-            seed: Same seed, same answer.
-            timeout: When to give up (s); a planner that is still at it 10 s later is ended.
-            budget: How many evaluations it may make, if it counts them; None for its own default.
-            objective: What shall be short: ``tip`` travel, ``joint`` travel or ``time``.
-
-        Raises:
-            NotFound: There is none, as far as the planner can tell.
-            TimedOut: The timeout came first.
-            BadSetting: The planner cannot serve this arm or task, or an option makes no sense.
-        """
-
-
-class BrokenPlugin(Exception):
-    """A plug-in that cannot be loaded, and why."""
+__all__ = [
+    "BrokenPlugin",
+    "Choice",
+    "Objective",
+    "Option",
+    "OwnPlanner",
+    "PlannerPlugin",
+    "Proposal",
+    "all_chosen",
+    "chosen",
+    "given",
+    "known",
+    "load",
+]
 
 
 @dataclass(frozen=True)
@@ -150,7 +103,7 @@ class Choice:
 
 def known() -> list[str]:
     """Return the names of all planners, elbowroom's own first."""
-    return [*OWN, *sorted({point.name for point in _plugins()} - set(OWN))]
+    return [*OWN, *plugins.installed()]
 
 
 def chosen(text: str) -> Choice:
@@ -160,38 +113,45 @@ def chosen(text: str) -> Choice:
         BadSetting: There is no such planner or option; the known ones are listed.
     """
     name, *assignments = text.strip().split(":")
-    point = _point(name)
-    try:
-        planner = load(name)
-    except BrokenPlugin:
-        pairs = dict(_pairs(name, assignments))
-        return Choice(name, pairs, pairs, _provider(point, None), owned=False)
-    defaults = _options(planner)
-    given: dict[str, Option] = {}
+    point = plugins.entry_point(name)
+    if point is None:
+        owner = f"elbowroom {__version__}"
+        defaults: Mapping[str, Option] = OWN[name].options
+    else:
+        owner = plugins.package(point)
+        try:
+            planner = plugins.loaded(point)
+        except BrokenPlugin:
+            pairs = dict(_pairs(name, assignments))
+            return Choice(name, pairs, pairs, owner, owned=False)
+        defaults, owner = plugins.options_of(planner), _with_version(owner, planner)
+    options: dict[str, Option] = {}
     for key, value in _pairs(name, assignments):
         if key not in defaults:
             listed = ", ".join(defaults) or "it has none"
             raise BadSetting(f"planner {name} has no option '{key}'; known: {listed}", setting="planners")
         read = _read(value, defaults[key], f"option {key} of planner {name}")
         if read != defaults[key]:
-            given[key] = read
+            options[key] = read
     if point is None:
         # Which words an option may be is for the core to say.
-        all_options(name, given)
-    return Choice(name, given, {**defaults, **given}, _provider(point, planner), owned=point is None)
+        all_options(name, options)
+    return Choice(name, options, {**defaults, **options}, owner, owned=point is None)
 
 
-def own_chosen(text: str) -> Choice:
-    """Return the planner that ``text`` asks for, as ``chosen`` does, if it is one of elbowroom's own.
+def given(planner: PlannerPlugin) -> Choice:
+    """Return the choice of a planner that is given as a callable, with its default options.
 
     Raises:
-        BadSetting: It is none of them, or has no such option; the known ones are listed.
+        BadSetting: Another process could not find it.
     """
-    name = text.strip().partition(":")[0]
-    if name not in OWN:
-        why = f"{name} is a plug-in, which only compare runs" if _is_plugin(name) else f"no planner is called '{name}'"
-        raise BadSetting(f"{why}; known: {', '.join(OWN)}", setting="planner")
-    return chosen(text)
+    reference = plugins.reference_to(planner)
+    try:
+        source = inspect.getsource(planner)
+    except (OSError, TypeError):
+        source = ""
+    owner = f"{reference} {hashlib.sha256(source.encode()).hexdigest()[:12]}"
+    return Choice(reference, {}, plugins.options_of(planner), _with_version(owner, planner), owned=False)
 
 
 def all_chosen(text: str) -> list[Choice]:
@@ -210,70 +170,21 @@ def all_chosen(text: str) -> list[Choice]:
 
 
 def load(name: str) -> PlannerPlugin:
-    """Return the planner called ``name``.
+    """Return the planner called ``name``, or that ``given`` calls so.
 
     Raises:
         BadSetting: There is none, or more than one; or the plug-in says that it lacks something.
         BrokenPlugin: It is a plug-in whose import fails, or that cannot be called.
     """
-    point = _point(name)
-    if point is None:
-        return OwnPlanner(name)
-    try:
-        planner = point.load()
-    except BadSetting:
-        raise
-    except (Exception, SystemExit) as error:
-        raise BrokenPlugin(f"cannot be loaded: {type(error).__name__}: {error}") from error
-    if not callable(planner):
-        raise BrokenPlugin(f"cannot be loaded: {point.value} is {type(planner).__name__}, not a callable")
-    return planner  # type: ignore[no-any-return]
+    if "." in name and name not in known():
+        return plugins.referenced(name)
+    point = plugins.entry_point(name)
+    return OwnPlanner(name) if point is None else plugins.loaded(point)
 
 
-def _plugins() -> Iterable[EntryPoint]:
-    return entry_points(group=GROUP)
-
-
-def _is_plugin(name: str) -> bool:
-    return any(point.name == name for point in _plugins())
-
-
-def _point(name: str) -> EntryPoint | None:
-    """The entry point of a plug-in, or None for one of our own."""
-    points = {(point.value, _package(point)): point for point in _plugins() if point.name == name}
-    owners = ["elbowroom"] * (name in OWN) + [package for _, package in points]
-    if not owners:
-        raise BadSetting(f"no planner is called '{name}'; known: {', '.join(known())}", setting="planners")
-    if len(owners) > 1:
-        raise BadSetting(f"{len(owners)} planners are called '{name}': of {', '.join(owners)}", setting="planners")
-    return next(iter(points.values()), None)
-
-
-def _package(point: EntryPoint) -> str:
-    return f"{point.dist.name} {point.dist.version}" if point.dist is not None else point.value
-
-
-def _provider(point: EntryPoint | None, planner: PlannerPlugin | None) -> str:
-    package = f"elbowroom {__version__}" if point is None else _package(point)
+def _with_version(owner: str, planner: PlannerPlugin) -> str:
     version = getattr(planner, "version", None)
-    return package if version is None else f"{package}, {version}"
-
-
-def _options(planner: PlannerPlugin) -> dict[str, Option]:
-    if isinstance(planner, OwnPlanner):
-        return dict(OWN[planner.name].options)
-    try:
-        parameters = inspect.signature(planner).parameters.values()
-    except (TypeError, ValueError):
-        return {}
-    shared = {"seed", "timeout", "budget", "objective"}
-    return {
-        parameter.name: parameter.default
-        for parameter in parameters
-        if parameter.kind is parameter.KEYWORD_ONLY
-        and parameter.name not in shared
-        and isinstance(parameter.default, (str, int, float))
-    }
+    return owner if version is None else f"{owner}, {version}"
 
 
 def _pairs(name: str, assignments: Sequence[str]) -> list[tuple[str, str]]:

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use elbowroom::planners::Monitor;
+use elbowroom::planning::Monitor;
 use elbowroom::trajectory::{Samples, interpolate};
 use elbowroom::verify::{Quantity, Verdict as Found, VerifySettings, Violation, verify_until};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};

@@ -2,11 +2,13 @@
 
 use elbowroom::free_space::{NotFree, Reason};
 use elbowroom::online::ReplanError;
-use elbowroom::planners::{PaperError, PlanError};
+use elbowroom::planners::{self, PaperError};
+use elbowroom::planning::PlanError;
 use elbowroom::scene::{Place, SceneError, TwoLinkError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
+use crate::scene::Scene;
 use crate::verdict::Verdict;
 
 /// The exception `elbowroom.errors.<class>(message, **fields)`.
@@ -174,9 +176,7 @@ pub(crate) fn scene_file(py: Python<'_>, error: &SceneError) -> PyErr {
 pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PlanError) -> PyErr {
     let message = error.to_string();
     match error {
-        PlanError::Swarm(_) | PlanError::Particles(_) | PlanError::Culture(_) | PlanError::Bounds(_) => {
-            setting(py, "planner", &message)
-        }
+        PlanError::BadSettings { .. } => setting(py, "planner", &message),
         PlanError::Duration { .. } | PlanError::TooFast { .. } => setting(py, "duration", &message),
         PlanError::Start(refused) => not_free(py, task, "start", refused),
         PlanError::Goal(refused) => not_free(py, task, "goal", refused),
@@ -189,17 +189,45 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
             fields.set_item("starts", &proof.starts)?;
             fields.set_item("goals", &proof.goals)
         }),
-        PlanError::Gap { .. } => setting(py, "gap", &message),
+        PlanError::Gap { .. } | PlanError::GapOfOneRound { .. } => setting(py, "gap", &message),
         PlanError::Moving { .. } => setting(py, "scene", &message),
-        PlanError::OtherArm { .. } => setting(py, "planner", &message),
+        PlanError::OtherArm { links, .. } => {
+            let serving = planners::all().into_iter().filter(|known| known.links().contains(links));
+            let names: Vec<String> = serving.map(|known| known.name().to_owned()).collect();
+            setting(py, "planner", &format!("{message}: {} serve it", names.join(", ")))
+        }
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
         PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => not_found(py, &message, None),
         PlanError::Stopped => timed_out(py, timeout),
         PlanError::BelowBound { .. }
         | PlanError::GoalNode(_)
         | PlanError::Motion(_)
-        | PlanError::Refused(_) => internal(py, &message),
+        | PlanError::Failed { .. }
+        | PlanError::Mismatch { .. }
+        | PlanError::Refused { .. } => internal(py, &message),
     }
+}
+
+/// Why there is no plan by a planner of somebody else's, whose faults are its own.
+pub(crate) fn proposed(
+    py: Python<'_>,
+    scene: &Scene,
+    (planner, task): (&str, &str),
+    timeout: Option<f64>,
+    error: &PlanError,
+) -> PyErr {
+    let verdict = match error {
+        PlanError::Refused { verdict, .. } => match Py::new(py, Verdict::new(scene, verdict, None)) {
+            Ok(verdict) => Some(verdict),
+            Err(error) => return error,
+        },
+        PlanError::Failed { .. } | PlanError::Mismatch { .. } | PlanError::BelowBound { .. } => None,
+        other => return plan(py, task, timeout, other),
+    };
+    exception(py, "PlannerFault", &error.to_string(), |fields| {
+        fields.set_item("planner", planner)?;
+        fields.set_item("verdict", verdict)
+    })
 }
 
 /// Why there is no replanner for `task`.

@@ -1,6 +1,6 @@
 use elbowroom::arm::Posture;
 use elbowroom::free_space::{Cases, CellState};
-use elbowroom::planners::Monitor;
+use elbowroom::planning::Monitor;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;

@@ -11,6 +11,7 @@ mod paper;
 mod plan;
 mod plan_kept;
 mod planning;
+mod proposed;
 mod scene;
 mod scene_parts;
 mod verdict;
@@ -37,7 +38,9 @@ mod _core {
     #[pymodule_export]
     use super::plan_kept::plan_again;
     #[pymodule_export]
-    use super::planning::{gap, plan, planner_options, planners_known};
+    use super::planning::{default_planner, gap, mismatch, plan, planner_options, planners_known};
+    #[pymodule_export]
+    use super::proposed::plan_proposed;
     #[pymodule_export]
     use super::scene::{Scene, SceneFile};
     #[pymodule_export]

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use elbowroom::arm::Posture;
 use elbowroom::free_space::configurations;
 use elbowroom::online::{self, Decision, KnownMotion};
-use elbowroom::planners::Monitor;
+use elbowroom::planning::Monitor;
 use elbowroom::scene::{self, Course, ObstacleMotion, Place, Task, TaskPosture};
 use elbowroom::trajectory::State;
 use numpy::ndarray::Array2;

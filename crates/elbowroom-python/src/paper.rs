@@ -1,6 +1,7 @@
 use elbowroom::arm::{Configuration, Posture};
 use elbowroom::path::{JointPath, JumpKind, TipPath};
-use elbowroom::planners::{self, Method, Objective, PaperSettings};
+use elbowroom::planners::{self, Method, PaperSettings};
+use elbowroom::planning::Objective;
 use elbowroom::swarm::GuidedSwarmSettings;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
@@ -9,7 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::plan::{Question, Setting, every, in_order, sampled, unit};
+use crate::plan::{Question, Setting, every, in_order, sampled};
 use crate::scene::points;
 use crate::verdict::{Verdict, core_of};
 use crate::watch;
@@ -67,7 +68,7 @@ impl PaperPlan {
     /// Of ``cost``: ``m``.
     #[getter]
     fn cost_unit(&self) -> &'static str {
-        unit(self.asked.objective)
+        self.asked.objective.unit()
     }
 
     /// The same as ``cost`` (m).

@@ -1,6 +1,6 @@
 //! A plan as Python shows it.
 
-use elbowroom::planners::{self, Objective};
+use elbowroom::planning::{self, Objective};
 use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -21,7 +21,7 @@ use crate::words::short;
 #[pyclass(frozen, eq, module = "elbowroom._core")]
 pub(crate) struct Plan {
     pub(crate) asked: Question,
-    pub(crate) plan: planners::Plan,
+    pub(crate) plan: planning::Plan,
     pub(crate) timings: Vec<(String, f64)>,
     motion: Py<Motion>,
     verdict: Py<Verdict>,
@@ -65,31 +65,22 @@ impl Question {
     }
 }
 
-/// What an objective is measured in.
-pub(crate) const fn unit(objective: Objective) -> &'static str {
-    match objective {
-        Objective::Tip => "m",
-        Objective::Joint => "rad",
-        Objective::Time => "s",
-    }
-}
-
 impl Plan {
     pub(crate) fn new(
         py: Python<'_>,
         asked: Question,
-        plan: planners::Plan,
+        plan: planning::Plan,
         timings: Vec<(String, f64)>,
     ) -> PyResult<Self> {
         let core = core_of(asked.scene.bind(py))?;
-        let motion = Motion::from(plan.trajectory.motion().clone());
+        let motion = Motion::from(plan.trajectory().motion().clone());
         let judged = Asked {
             scene: asked.scene.clone_ref(py),
             motion: motion.motion.clone(),
             curve: Curve::Quintic,
             margin: 0.0,
         };
-        let verdict = Verdict::new(core.get(), plan.trajectory.verdict(), Some(judged));
+        let verdict = Verdict::new(core.get(), plan.trajectory().verdict(), Some(judged));
         Ok(Self {
             asked,
             plan,
@@ -151,19 +142,19 @@ impl Plan {
     /// What the motion costs in terms of the objective, in ``cost_unit``.
     #[getter]
     fn cost(&self) -> f64 {
-        self.plan.cost
+        self.plan.cost()
     }
 
     /// Of ``cost`` and ``lower_bound``: ``m`` of tip travel, ``rad`` of joint travel, or ``s``.
     #[getter]
     fn cost_unit(&self) -> &'static str {
-        unit(self.asked.objective)
+        self.asked.objective.unit()
     }
 
     /// No motion costs less than this; ``None`` where nothing could be proved.
     #[getter]
     fn lower_bound(&self) -> Option<f64> {
-        self.plan.lower_bound
+        self.plan.lower_bound()
     }
 
     /// By which share of ``lower_bound`` the cost is above it: no motion is better by more; ``None`` where unknown.
@@ -175,19 +166,19 @@ impl Plan {
     /// Tip travel along the path that the motion was made from (m).
     #[getter]
     fn path_cost(&self) -> f64 {
-        self.plan.path_cost
+        self.plan.record().path_cost
     }
 
     /// How many different paths the choice was among.
     #[getter]
     fn paths_to_choose_from(&self) -> usize {
-        self.plan.paths_to_choose_from
+        self.plan.record().paths_to_choose_from
     }
 
     /// Where the tip is at each configuration, shape ``(n, 2)`` (m).
     #[getter]
     fn tip_path<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        let points = &self.plan.tip_path.0;
+        let points = &self.plan.record().tip_path.0;
         self.tip_path.get(py, || {
             Array2::from_shape_fn(
                 (points.len(), 2),
@@ -196,37 +187,38 @@ impl Plan {
         })
     }
 
-    /// Configurations from start to goal, shape ``(n, joints)`` (rad); the straight turns between them are certified free.
+    /// Configurations from start to goal, shape ``(n, joints)`` (rad): of the path that the motion was led along, whose
+    /// straight moves are certified free; where the planner found a motion, on it.
     #[getter]
     fn configurations<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        let path = &self.plan.joint_path.0;
-        let joints = self.plan.trajectory.motion().joints();
+        let path = &self.plan.record().joint_path.0;
+        let joints = self.plan.trajectory().motion().joints();
         self.configurations.get(py, || Array2::from_shape_fn((path.len(), joints), |(i, j)| path[i][j]))
     }
 
     /// The posture at each: ``elbow-up``, ``elbow-down``, or ``None`` with the links in line or more links than two.
     #[getter]
     fn postures(&self) -> Vec<Option<&'static str>> {
-        crate::paper::postures(&self.plan.joint_path)
+        crate::paper::postures(&self.plan.record().joint_path)
     }
 
     /// Places of the path that the motion is led through, by their index.
     #[getter]
     fn vias(&self) -> Vec<usize> {
-        self.plan.vias.clone()
+        self.plan.record().vias.clone()
     }
 
     /// How many via points, ends left out, the arm stops at.
     #[getter]
     fn stops(&self) -> usize {
-        self.plan.stops
+        self.plan.record().stops
     }
 
     /// Motion limits the scene does not state, and what was taken in their place: joint, rate, value (rad/s, rad/s²,
     /// rad/s³).
     #[getter]
     fn assumed_limits(&self) -> Vec<(usize, &'static str, f64)> {
-        self.plan.assumed_limits.iter().map(|limit| (limit.joint, limit.rate, limit.value)).collect()
+        self.plan.record().assumed_limits.iter().map(|limit| (limit.joint, limit.rate, limit.value)).collect()
     }
 
     /// The polynomials, proved to be safe.
@@ -250,13 +242,13 @@ impl Plan {
     /// How many candidates the planner judged; ``None`` if it does not count them.
     #[getter]
     fn evaluations(&self) -> Option<usize> {
-        self.plan.effort.as_ref().map(|effort| effort.evaluations)
+        self.plan.effort().map(|effort| effort.evaluations)
     }
 
     /// Evaluations made, and the best cost by then, each time that fell; ``None`` if it does not count them.
     #[getter]
     fn convergence(&self) -> Option<Vec<(usize, f64)>> {
-        self.plan.effort.as_ref().map(|effort| effort.convergence.clone())
+        self.plan.effort().map(|effort| effort.convergence.clone())
     }
 
     /// Return the motion every ``period`` (s), both ends included.
@@ -275,9 +267,9 @@ impl Plan {
 
     fn __repr__(&self) -> String {
         let gap = self.plan.gap().map_or_else(String::new, |gap| format!(", gap {} %", short(100.0 * gap)));
-        let (cost, unit) = (short(self.plan.cost), self.cost_unit());
+        let (cost, unit) = (short(self.plan.cost()), self.cost_unit());
         let (duration, verdict) =
-            (short(self.plan.trajectory.motion().duration()), self.verdict.get().in_words());
+            (short(self.plan.trajectory().motion().duration()), self.verdict.get().in_words());
         let (task, planner) = (&self.asked.task, &self.asked.planner);
         format!("<Plan of task '{task}' by {planner}: cost {cost} {unit}{gap}, {duration} s, {verdict}>")
     }

@@ -2,8 +2,8 @@
 
 use elbowroom::geometry::Point;
 use elbowroom::path::{JointPath, TipPath};
-use elbowroom::planners::{self, AssumedLimit, Effort, Objective};
-use elbowroom::verify::{Rate, Trajectory, VerifySettings};
+use elbowroom::planning::{self, AssumedLimit, Effort, Objective, PlanRecord, RecordError};
+use elbowroom::verify::Rate;
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -11,9 +11,6 @@ use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
 use crate::verdict::{Verdict, core_of, refuted};
 use crate::watch;
-
-/// By which share a cost that is measured again may differ: rounding on another machine.
-const ROUNDING: f64 = 1e-9;
 
 /// What is kept of a plan besides its scene and its motion: a dictionary in Python.
 #[derive(FromPyObject, IntoPyObject)]
@@ -39,7 +36,7 @@ pub(crate) struct Kept {
 
 impl Kept {
     pub(crate) fn of(shown: &Plan) -> Self {
-        let (asked, plan) = (&shown.asked, &shown.plan);
+        let (asked, plan) = (&shown.asked, shown.plan.record());
         let limit = |limit: &AssumedLimit| (limit.joint, limit.rate.to_owned(), limit.value);
         Self {
             task: asked.task.clone(),
@@ -76,40 +73,17 @@ pub(crate) fn plan_again(
 ) -> PyResult<Plan> {
     let core = core_of(scene)?;
     let core = core.get();
-    core.task(py, &kept.task)?;
-    let Some(objective) = objective(&kept.objective) else {
+    let task = core.task(py, &kept.task)?;
+    let Some(objective) = Objective::ALL.into_iter().find(|known| known.name() == kept.objective) else {
         return Err(errors::setting(py, "objective", "the plan was kept with no objective that there is"));
     };
-    let joints = motion.motion.joints();
-    if kept.configurations.is_empty() || kept.configurations.iter().any(|q| q.len() != joints) {
-        return Err(errors::setting(py, "configurations", "the plan was kept with no path of its joints"));
-    }
-    let (judged, _) = watch::run(py, None, None, |_| {
-        Trajectory::certify(&core.scene, (*motion.motion).clone(), &VerifySettings::default())
-    })?;
-    let trajectory =
-        judged.map_err(|found| refuted(py, "the plan was kept as safe", Verdict::new(core, &found, None)))?;
-    let measured = match objective {
-        Objective::Tip => motion.motion.tip_length(core.scene.arm()),
-        Objective::Joint => motion.motion.joint_length(),
-        Objective::Time => motion.motion.duration(),
-    };
-    let off = (kept.cost - measured).abs();
-    if off.is_nan() || off > ROUNDING * measured {
-        let message = format!("the plan was kept with a cost of {}; its motion costs {measured}", kept.cost);
-        return Err(errors::refuted(py, &message, None));
-    }
-    if kept.lower_bound.is_some_and(|bound| bound.is_nan() || bound > measured * (1.0 + ROUNDING)) {
-        let message = format!("the plan was kept with a lower bound above what its motion costs, {measured}");
-        return Err(errors::refuted(py, &message, None));
-    }
     let assumed_limits = kept
         .assumed_limits
         .into_iter()
         .map(|(joint, name, value)| rate(&name).map(|rate| AssumedLimit { joint, rate, value }))
         .collect::<Option<_>>()
         .ok_or_else(|| errors::setting(py, "assumed_limits", "the plan was kept with a limit on no rate"))?;
-    let plan = planners::Plan {
+    let record = PlanRecord {
         cost: kept.cost,
         lower_bound: kept.lower_bound,
         path_cost: kept.path_cost,
@@ -118,10 +92,17 @@ pub(crate) fn plan_again(
         joint_path: JointPath(kept.configurations.into_iter().map(Into::into).collect()),
         vias: kept.vias,
         stops: kept.stops,
-        trajectory,
         assumed_limits,
         effort: kept.effort.map(|(evaluations, convergence)| Effort { evaluations, convergence }),
     };
+    let motion = (*motion.motion).clone();
+    let (again, _) =
+        watch::run(py, None, None, |_| planning::Plan::again(&core.scene, task, objective, motion, record))?;
+    let plan = again.map_err(|error| match &error {
+        RecordError::Refused(verdict) => refuted(py, &error.to_string(), Verdict::new(core, verdict, None)),
+        RecordError::Path { .. } => errors::setting(py, "configurations", &error.to_string()),
+        _ => errors::refuted(py, &error.to_string(), None),
+    })?;
     let asked = Question {
         scene: scene.clone().unbind(),
         task: kept.task,
@@ -131,11 +112,6 @@ pub(crate) fn plan_again(
         objective,
     };
     Plan::new(py, asked, plan, kept.timings)
-}
-
-/// The objective called `name`.
-pub(crate) fn objective(name: &str) -> Option<Objective> {
-    [Objective::Tip, Objective::Joint, Objective::Time].into_iter().find(|known| known.name() == name)
 }
 
 fn rate(name: &str) -> Option<&'static str> {

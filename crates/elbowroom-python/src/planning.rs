@@ -1,12 +1,13 @@
 //! From a task to a plan.
 
-use elbowroom::planners::{self, OptionValue, Pace, PlanSettings, Planner};
+use elbowroom::planners;
+use elbowroom::planning::{self, ASSUMED_LIMITS, Objective, OptionValue, Pace, PlanSettings, Planner};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors;
+use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
-use crate::plan_kept;
 use crate::verdict::core_of;
 use crate::watch;
 
@@ -27,13 +28,20 @@ impl From<OptionPart> for OptionValue {
 }
 
 /// A planner's name, its options with their defaults, and which of them is its budget, if any.
-type Known<'py> = (&'static str, Bound<'py, PyDict>, Option<&'static str>);
+type Known<'py> = (String, Bound<'py, PyDict>, Option<&'static str>);
 
 /// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
 #[pyfunction]
 pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
-    let known = |planner: &Planner| Ok((planner.name(), options_of(py, planner)?, planner.budget()));
-    Planner::all().iter().map(known).collect()
+    let known =
+        |planner: &dyn Planner| Ok((planner.name().to_owned(), options_of(py, planner)?, planner.budget()));
+    planners::all().iter().map(|planner| known(&**planner)).collect()
+}
+
+/// Return the name of the planner to take for the arm of ``scene`` where none is asked for.
+#[pyfunction]
+pub(crate) fn default_planner(scene: &Bound<'_, PyAny>) -> PyResult<String> {
+    Ok(planners::default_for(core_of(scene)?.get().scene.arm()).name().to_owned())
 }
 
 /// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.
@@ -46,10 +54,10 @@ pub(crate) fn planner_options<'py>(
     planner: &str,
     options: Vec<(String, OptionPart)>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    options_of(py, &by_name(py, planner, options)?)
+    options_of(py, &*by_name(py, planner, options)?)
 }
 
-fn options_of<'py>(py: Python<'py>, planner: &Planner) -> PyResult<Bound<'py, PyDict>> {
+fn options_of<'py>(py: Python<'py>, planner: &dyn Planner) -> PyResult<Bound<'py, PyDict>> {
     let options = PyDict::new(py);
     for (name, value) in planner.options() {
         match value {
@@ -60,10 +68,10 @@ fn options_of<'py>(py: Python<'py>, planner: &Planner) -> PyResult<Bound<'py, Py
     Ok(options)
 }
 
-fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) -> PyResult<Planner> {
+fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) -> PyResult<Box<dyn Planner>> {
     let options: Vec<(String, OptionValue)> =
         options.into_iter().map(|(name, value)| (name, value.into())).collect();
-    Planner::by_name(planner, &options).map_err(|error| errors::setting(py, "planner", &error.to_string()))
+    planners::by_name(planner, &options).map_err(|error| errors::setting(py, "planner", &error.to_string()))
 }
 
 /// Return a plan for the task called ``task`` of ``scene``.
@@ -94,29 +102,34 @@ pub(crate) fn plan(
     let core = core_of(scene)?;
     let core = core.get();
     let asked = core.task(py, task)?;
-    let objective = plan_kept::objective(objective).ok_or_else(|| {
-        let message = format!("no objective is called '{objective}'; tip, joint or time");
-        errors::setting(py, "objective", &message)
-    })?;
+    let objective = objective_called(py, objective)?;
     let planner = by_name(py, planner, options)?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
     let settings = PlanSettings { objective, pace, seed, gap };
-    let work = |watch: &watch::Watch| planners::plan(&core.scene, asked, &planner, &settings, watch);
+    let work = |watch: &watch::Watch| planning::plan(&core.scene, asked, &*planner, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
     let question = Question {
         scene: scene.clone().unbind(),
         task: task.to_owned(),
         planner: planner.name().to_owned(),
-        settings: told(&planner, &settings),
+        settings: told(&*planner, &settings),
         seed,
         objective,
     };
     Plan::new(py, question, plan, watch::told(timings))
 }
 
+/// The objective called `name`.
+pub(crate) fn objective_called(py: Python<'_>, name: &str) -> PyResult<Objective> {
+    Objective::ALL.into_iter().find(|known| known.name() == name).ok_or_else(|| {
+        let known = Objective::ALL.map(Objective::name).join(", ");
+        errors::setting(py, "objective", &format!("no objective is called '{name}'; known: {known}"))
+    })
+}
+
 /// The settings as a plan tells them.
-fn told(planner: &Planner, settings: &PlanSettings) -> Vec<(String, Setting)> {
+pub(crate) fn told(planner: &dyn Planner, settings: &PlanSettings) -> Vec<(String, Setting)> {
     let duration = match settings.pace {
         Pace::Fastest => Setting::Word("fastest".to_owned()),
         Pace::Duration(seconds) => Setting::Number(seconds),
@@ -136,17 +149,35 @@ impl From<OptionValue> for Setting {
     }
 }
 
+/// Return how ``motion``, whose posture changes at ``posture_changes`` (s), fails to do the task called ``task``; ``None`` if it does.
+///
+/// Raises:
+///     UnknownTask: The scene has no such task.
+#[pyfunction]
+pub(crate) fn mismatch(
+    py: Python<'_>,
+    scene: &Bound<'_, PyAny>,
+    task: &str,
+    motion: &Motion,
+    posture_changes: Vec<f64>,
+) -> PyResult<Option<String>> {
+    let core = core_of(scene)?;
+    let core = core.get();
+    let found = planning::mismatch(&core.scene, core.task(py, task)?, &motion.motion, &posture_changes);
+    Ok(found.map(|mismatch| mismatch.to_string()))
+}
+
 /// By which share of ``lower_bound`` ``cost`` is above it; ``None`` where that says nothing.
 #[pyfunction]
 pub(crate) fn gap(cost: f64, lower_bound: f64) -> Option<f64> {
-    planners::gap(cost, lower_bound)
+    planning::gap(cost, lower_bound)
 }
 
 /// What planners take for motion limits that a scene does not state, by rate.
 pub(crate) fn assumed_limits(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let limits = PyDict::new(py);
-    limits.set_item("velocity", planners::ASSUMED_LIMITS.velocity)?;
-    limits.set_item("acceleration", planners::ASSUMED_LIMITS.acceleration)?;
-    limits.set_item("jerk", planners::ASSUMED_LIMITS.jerk)?;
+    limits.set_item("velocity", ASSUMED_LIMITS.velocity)?;
+    limits.set_item("acceleration", ASSUMED_LIMITS.acceleration)?;
+    limits.set_item("jerk", ASSUMED_LIMITS.jerk)?;
     Ok(limits)
 }

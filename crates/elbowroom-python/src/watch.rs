@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
 use std::time::{Duration, Instant};
 
-use elbowroom::planners::{Monitor, Stage};
+use elbowroom::planning::{Monitor, Stage};
 use pyo3::prelude::*;
 
 use crate::errors;

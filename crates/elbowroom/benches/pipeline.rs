@@ -6,7 +6,8 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use elbowroom::planners::{Method, PaperSettings, PlanSettings, Planner, Unwatched, plan, plan_as_in_paper};
+use elbowroom::planners::{DstarPlanner, DstarPsoPlanner, Method, PaperSettings, plan_as_in_paper};
+use elbowroom::planning::{PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::parse;
 use elbowroom::swarm::GuidedSwarmSettings;
 
@@ -26,15 +27,15 @@ fn pipeline(c: &mut Criterion) {
             group.bench_function(BenchmarkId::new(format!("paper, {name}"), &task.name), |b| {
                 b.iter(|| plan_as_in_paper(black_box(&scene), task, &settings, &Unwatched));
             });
-            let planner = match method {
-                Method::Dstar => Planner::Dstar,
-                Method::DstarPso(swarm) => Planner::DstarPso(swarm),
+            let planner: Box<dyn Planner> = match method {
+                Method::Dstar => Box::new(DstarPlanner),
+                Method::DstarPso(swarm) => Box::new(DstarPsoPlanner { swarm }),
             };
             let settings = PlanSettings::default();
-            let found = plan(&scene, task, &planner, &settings, &Unwatched).expect("there is a path");
-            assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
+            let found = plan(&scene, task, &*planner, &settings, &Unwatched).expect("there is a path");
+            assert!((found.record().path_cost - optimum).abs() < 1e-6, "{}", found.record().path_cost);
             group.bench_function(BenchmarkId::new(format!("verified, {name}"), &task.name), |b| {
-                b.iter(|| plan(black_box(&scene), task, &planner, &settings, &Unwatched));
+                b.iter(|| plan(black_box(&scene), task, &*planner, &settings, &Unwatched));
             });
         }
     }
@@ -43,12 +44,12 @@ fn pipeline(c: &mut Criterion) {
 
 fn without_obstacles(c: &mut Criterion) {
     let scene = parse(EMPTY, "paper-empty.yaml").expect("the scene is sound").scene;
-    let (planner, settings) = (Planner::default(), PlanSettings::default());
+    let (planner, settings) = (DstarPsoPlanner::default(), PlanSettings::default());
     let mut group = c.benchmark_group("pipeline");
     group.sample_size(20);
     for (task, optimum) in scene.tasks().iter().zip([1.244_680, 0.861_838]) {
         let found = plan(&scene, task, &planner, &settings, &Unwatched).expect("there is a path");
-        assert!((found.path_cost - optimum).abs() < 1e-6, "{}", found.path_cost);
+        assert!((found.record().path_cost - optimum).abs() < 1e-6, "{}", found.record().path_cost);
         group.bench_function(BenchmarkId::new("verified without obstacles, dstar-pso", &task.name), |b| {
             b.iter(|| plan(black_box(&scene), task, &planner, &settings, &Unwatched));
         });

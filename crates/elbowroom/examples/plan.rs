@@ -3,7 +3,8 @@
 use std::error::Error;
 use std::io::Write;
 
-use elbowroom::planners::{Objective, PlanSettings, Planner, Unwatched};
+use elbowroom::planners::default_for;
+use elbowroom::planning::{Objective, PlanSettings, Unwatched};
 use elbowroom::{parse, plan};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -11,10 +12,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = parse(&std::fs::read_to_string(&file)?, &file)?.scene;
     let task = scene.tasks().first().ok_or("the scene has no task")?;
     let settings = PlanSettings { objective: Objective::Time, ..PlanSettings::default() };
-    let plan = plan(&scene, task, &Planner::default(), &settings, &Unwatched)?;
+    let plan = plan(&scene, task, &*default_for(scene.arm()), &settings, &Unwatched)?;
     let mut out = std::io::stdout();
-    writeln!(out, "{}: {:.2} s, proved to be safe", task.name, plan.trajectory.motion().duration())?;
-    if let Some(least) = plan.trajectory.verdict().least_clearance {
+    writeln!(out, "{}: {:.2} s, proved to be safe", task.name, plan.trajectory().motion().duration())?;
+    if let Some(least) = plan.trajectory().verdict().least_clearance {
         writeln!(out, "least clearance {:.1} mm, at {:.2} s", 1e3 * least.distance, least.time)?;
     }
     if let Some(gap) = plan.gap() {

@@ -7,7 +7,8 @@
 //! safe; [`verify`](verify::verify) judges anybody's [`Motion`].
 //!
 //! ```
-//! use elbowroom::planners::{PlanSettings, Planner, Unwatched};
+//! use elbowroom::planners::DstarPsoPlanner;
+//! use elbowroom::planning::{PlanSettings, Unwatched};
 //! use elbowroom::{parse, plan};
 //!
 //! let text = "
@@ -20,21 +21,23 @@
 //! ";
 //! let scene = parse(text, "cell.yaml")?.scene;
 //! let task = scene.task("first").ok_or("no such task")?;
-//! let plan = plan(&scene, task, &Planner::default(), &PlanSettings::default(), &Unwatched)?;
-//! assert!(plan.trajectory.verdict().is_safe());
+//! let plan = plan(&scene, task, &DstarPsoPlanner::default(), &PlanSettings::default(), &Unwatched)?;
+//! assert!(plan.trajectory().verdict().is_safe());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! Modules import only from those before them:
-//! `geometry < surface < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < planners < online`.
+//! `geometry < surface < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < planning < planners < online`.
 
 pub mod arm;
+mod decomposition;
 pub mod free_space;
 pub mod geometry;
 pub mod grid;
 pub mod online;
 pub mod path;
 pub mod planners;
+pub mod planning;
 mod random;
 pub mod scene;
 pub mod search;
@@ -44,7 +47,7 @@ pub mod trajectory;
 pub mod verify;
 
 pub use arm::{Arm, Configuration};
-pub use planners::{Plan, PlanError, plan};
+pub use planning::{Plan, PlanError, Planner, plan};
 pub use scene::{Obstacle, Scene, Task, parse};
 pub use trajectory::Motion;
 pub use verify::{Trajectory, Verdict};

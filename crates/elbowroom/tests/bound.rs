@@ -20,7 +20,8 @@ use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::configurations;
 use elbowroom::geometry::{Point, Vector};
 use elbowroom::path::straight_move_keeps;
-use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::planners::OptimalPlanner;
+use elbowroom::planning::{Objective, PlanError, PlanSettings, Unwatched, plan};
 use elbowroom::scene::{Scene, Task, TaskPosture, TwoLinkScene};
 use elbowroom::surface::{Across, Measure, Side, Surface, SurfacePlace};
 use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
@@ -268,21 +269,21 @@ fn campaign(seeds: std::ops::Range<u64>, points: usize) -> Count {
         let Some(judged) = judged(&scene, task, points, speeds) else { continue };
         for (k, objective) in [Objective::Joint, Objective::Tip, Objective::Time].into_iter().enumerate() {
             let settings = PlanSettings { objective, ..PlanSettings::default() };
-            match plan(&scene, task, &Planner::Optimal, &settings, &Unwatched) {
+            match plan(&scene, task, &OptimalPlanner, &settings, &Unwatched) {
                 Ok(plan) => {
                     assert!(!judged.parted, "seed {seed}: a motion where the flood finds none");
-                    let Some(bound) = plan.lower_bound else {
+                    let Some(bound) = plan.lower_bound() else {
                         count.without_bound += 1;
                         continue;
                     };
                     assert!(
-                        bound <= plan.cost * (1.0 + 1e-12),
+                        bound <= plan.cost() * (1.0 + 1e-12),
                         "seed {seed} {objective:?}: {bound} above the plan's own {}",
-                        plan.cost
+                        plan.cost()
                     );
                     if let Some(least) = judged.least {
                         // Time of the way alone does not hold the time to speed up.
-                        let most = if objective == Objective::Time { plan.cost } else { least[k] };
+                        let most = if objective == Objective::Time { plan.cost() } else { least[k] };
                         assert!(
                             bound <= most * (1.0 + 1e-9),
                             "seed {seed} {objective:?}: bound {bound} above {most}"

@@ -14,7 +14,8 @@ mod worlds;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 use elbowroom::free_space::FreeSpace;
-use elbowroom::planners::{
+use elbowroom::planners::{DstarPlanner, DstarPsoPlanner};
+use elbowroom::planning::{
     ASSUMED_LIMITS, Objective, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
 };
 use elbowroom::scene::Scene;
@@ -24,13 +25,14 @@ use rayon::prelude::*;
 
 fn planned(scene: &Scene, seed: u64) -> Result<Plan, PlanError> {
     let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
-    let planner = if seed.is_multiple_of(2) { Planner::Dstar } else { Planner::DstarPso(swarm) };
+    let drawn = DstarPsoPlanner { swarm };
+    let planner: &dyn Planner = if seed.is_multiple_of(2) { &DstarPlanner } else { &drawn };
     let settings = PlanSettings {
         objective: [Objective::Tip, Objective::Joint, Objective::Time][(seed % 3) as usize],
         seed,
         ..PlanSettings::default()
     };
-    plan(scene, &scene.tasks()[0], &planner, &settings, &Unwatched)
+    plan(scene, &scene.tasks()[0], planner, &settings, &Unwatched)
 }
 
 /// What became of some worlds.
@@ -73,8 +75,8 @@ fn outcome(seed: u64) -> Outcome {
     match planned(&scene, seed) {
         Ok(plan) => {
             outcome.planned = 1;
-            outcome.stops = plan.stops as u64;
-            if let Some(fault) = judge::fault(&scene, plan.trajectory.motion(), 200) {
+            outcome.stops = plan.record().stops as u64;
+            if let Some(fault) = judge::fault(&scene, plan.trajectory().motion(), 200) {
                 println!("world {seed}: {fault}");
                 outcome.unsafe_motions = 1;
             }
@@ -94,7 +96,7 @@ fn outcome(seed: u64) -> Outcome {
 /// Velocity, acceleration and jerk of every piece at their extrema, against the limits stated or assumed.
 fn judge_pieces(scene: &Scene, plan: &Plan, outcome: &mut Outcome) {
     let assumed = [ASSUMED_LIMITS.velocity, ASSUMED_LIMITS.acceleration, ASSUMED_LIMITS.jerk];
-    for piece in plan.trajectory.motion().pieces() {
+    for piece in plan.trajectory().motion().pieces() {
         outcome.pieces += 1;
         let beyond = (0..2).any(|j| {
             let stated = scene.arm().joints()[j].motion;

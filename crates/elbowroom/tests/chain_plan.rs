@@ -16,21 +16,21 @@ use build::{example, with_task};
 use chain_judge::{assert_true, clearance};
 use elbowroom::free_space::Reason;
 use elbowroom::geometry::Point;
-use elbowroom::planners::{
+use elbowroom::planners::{DstarPlanner, DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner};
+use elbowroom::planning::{
     Monitor, Objective, Plan, PlanError, PlanSettings, Planner, Stage, Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, Task, TaskPosture};
-use elbowroom::swarm::GuidedSwarmSettings;
 
 const SCENES: [&str; 3] = ["three-links", "five-links", "ten-links"];
 
 /// The example's first task.
 fn run(scene: &Scene, settings: &PlanSettings) -> Result<Plan, PlanError> {
-    plan(scene, &scene.tasks()[0], &Planner::default(), settings, &Unwatched)
+    plan(scene, &scene.tasks()[0], &GuidedRrtConnectPlanner::default(), settings, &Unwatched)
 }
 
-fn with_candidates(candidates: usize) -> Planner {
-    Planner::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
+fn with_evaluations(evaluations: usize) -> GuidedRrtConnectPlanner {
+    GuidedRrtConnectPlanner { evaluations, ..GuidedRrtConnectPlanner::default() }
 }
 
 #[test]
@@ -41,11 +41,13 @@ fn narrow_places_are_passed_with_every_seed() {
             for seed in 0..3 {
                 let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
                 let settings = PlanSettings { seed, objective, ..PlanSettings::default() };
-                let plan = plan(&scene, task, &Planner::default(), &settings, &Unwatched)
+                let plan = plan(&scene, task, &GuidedRrtConnectPlanner::default(), &settings, &Unwatched)
                     .unwrap_or_else(|error| panic!("{name}, {}, seed {seed}: {error}", task.name));
                 assert_true(&scene, task, &plan);
-                assert!(plan.lower_bound.is_none());
-                assert!(plan.paths_to_choose_from >= 1 && !plan.effort.unwrap().convergence.is_empty());
+                assert!(plan.lower_bound().is_none());
+                assert!(
+                    plan.record().paths_to_choose_from >= 1 && !plan.effort().unwrap().convergence.is_empty()
+                );
             }
         }
     }
@@ -64,8 +66,10 @@ fn the_examples_begin_and_end_clearly_free_and_lead_through_narrow_places() {
                     assert!(clear > 0.02, "{name}, {}: {clear}", task.name);
                 }
             }
-            let plan = plan(&scene, task, &Planner::default(), &PlanSettings::default(), &Unwatched).unwrap();
-            let nearest = plan.trajectory.verdict().least_clearance.unwrap().distance;
+            let plan =
+                plan(&scene, task, &GuidedRrtConnectPlanner::default(), &PlanSettings::default(), &Unwatched)
+                    .unwrap();
+            let nearest = plan.trajectory().verdict().least_clearance.unwrap().distance;
             assert!(nearest < narrow, "{name}: {nearest}");
         }
     }
@@ -88,13 +92,13 @@ fn same_seed_same_plan_whatever_the_threads() {
 fn an_arm_that_is_there_already_stands_still() {
     let scene = with_task(&example("three-links"), 0, |task| task.goal = task.start.clone());
     let plan = run(&scene, &PlanSettings::default()).unwrap();
-    assert_eq!((plan.cost, plan.trajectory.motion().duration()), (0.0, 0.0));
+    assert_eq!((plan.cost(), plan.trajectory().motion().duration()), (0.0, 0.0));
 }
 
 #[test]
 fn from_configuration_to_configuration_through_the_window() {
     let scene = example("three-links");
-    let there = run(&scene, &PlanSettings::default()).unwrap().joint_path.0.pop().unwrap();
+    let there = run(&scene, &PlanSettings::default()).unwrap().joint_path().0.last().unwrap().clone();
     let scene = with_task(&scene, 0, |task| task.goal = Place::Configuration(there));
     for seed in 0..3 {
         let plan = run(&scene, &PlanSettings { seed, ..PlanSettings::default() }).unwrap();
@@ -123,10 +127,13 @@ fn what_cannot_be_asked_of_the_arm_is_said() {
         let posture = with(&|task| task.posture = posture);
         assert_eq!(posture, PlanError::PostureOfMany { links: 5 });
     }
-    for planner in [Planner::Dstar, Planner::Optimal] {
+    for planner in [&DstarPlanner as &dyn Planner, &OptimalPlanner, &DstarPsoPlanner::default()] {
         let other =
-            plan(&scene, &scene.tasks()[0], &planner, &PlanSettings::default(), &Unwatched).unwrap_err();
-        assert_eq!(other, PlanError::OtherArm { planner: planner.name(), links: 5 });
+            plan(&scene, &scene.tasks()[0], planner, &PlanSettings::default(), &Unwatched).unwrap_err();
+        assert_eq!(
+            other,
+            PlanError::OtherArm { planner: planner.name().to_owned(), least: 2, most: 2, links: 5 }
+        );
     }
 }
 
@@ -136,14 +143,13 @@ fn a_budget_that_is_too_small_is_kept_to() {
     let scene = example("three-links");
     for seed in 0..3 {
         let settings = PlanSettings { seed, ..PlanSettings::default() };
-        match plan(&scene, &scene.tasks()[1], &with_candidates(1), &settings, &Unwatched) {
+        match plan(&scene, &scene.tasks()[1], &with_evaluations(2_000), &settings, &Unwatched) {
             Err(PlanError::NotFoundInBudget { evaluations }) => assert!(evaluations <= 2_000),
-            other => panic!("{:?}", other.map(|plan| plan.cost)),
+            other => panic!("{:?}", other.map(|plan| plan.cost())),
         }
     }
-    let none = with_candidates(0);
-    let refused = plan(&scene, &scene.tasks()[0], &none, &PlanSettings::default(), &Unwatched);
-    assert!(matches!(refused, Err(PlanError::Swarm(_))));
+    let none = plan(&scene, &scene.tasks()[0], &with_evaluations(0), &PlanSettings::default(), &Unwatched);
+    assert_eq!(none.unwrap_err(), PlanError::NotFoundInBudget { evaluations: 0 });
 }
 
 /// Says no after so many questions.
@@ -163,7 +169,13 @@ fn a_monitor_that_says_no_is_obeyed() {
     let mut stopped = 0;
     for questions in [0, 1, 2, 3, 5, 8, 20, 50, 100, 200] {
         let monitor = Until(AtomicUsize::new(questions));
-        match plan(&scene, &scene.tasks()[0], &Planner::default(), &PlanSettings::default(), &monitor) {
+        match plan(
+            &scene,
+            &scene.tasks()[0],
+            &GuidedRrtConnectPlanner::default(),
+            &PlanSettings::default(),
+            &monitor,
+        ) {
             Err(PlanError::Stopped) => stopped += 1,
             Ok(_) => {}
             Err(other) => panic!("{questions}: {other}"),

@@ -14,14 +14,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use build::{example, with_task};
 use chain_judge::assert_true;
 use elbowroom::geometry::Point;
-use elbowroom::planners::{
-    IkPsoSettings, Monitor, Objective, OptionValue, Plan, PlanError, PlanSettings, Planner, Stage, Unwatched,
-    plan,
+use elbowroom::planners::{self, IkPsoPlanner};
+use elbowroom::planning::{
+    Monitor, Objective, OptionValue, Plan, PlanError, PlanSettings, Stage, Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, TaskPosture};
 
-fn with(evaluations: usize) -> Planner {
-    Planner::IkPso(IkPsoSettings { evaluations })
+fn with(evaluations: usize) -> IkPsoPlanner {
+    IkPsoPlanner { evaluations }
 }
 
 fn run(scene: &Scene, task: usize, evaluations: usize, seed: u64) -> Result<Plan, PlanError> {
@@ -38,9 +38,9 @@ fn the_paper_s_tasks_are_done_with_every_seed() {
             let settings = PlanSettings { objective, seed, ..PlanSettings::default() };
             let plan = plan(&scene, task, &with(60_000), &settings, &Unwatched).unwrap();
             assert_true(&scene, task, &plan);
-            let bound = plan.lower_bound.unwrap();
-            assert!(bound > 0.0 && bound <= plan.cost, "{bound}, {}", plan.cost);
-            assert!(plan.effort.unwrap().evaluations <= 60_000);
+            let bound = plan.lower_bound().unwrap();
+            assert!(bound > 0.0 && bound <= plan.cost(), "{bound}, {}", plan.cost());
+            assert!(plan.effort().unwrap().evaluations <= 60_000);
         }
     }
 }
@@ -60,7 +60,7 @@ fn postures_asked_for_are_kept_to() {
                 };
                 planned += 1;
                 assert_true(&scene, &scene.tasks()[task], &plan);
-                let motion = plan.trajectory.motion();
+                let motion = plan.trajectory().motion();
                 let bends: Vec<f64> = (0..=1000)
                     .map(|i| {
                         motion.at(motion.start() + motion.duration() * i as f64 / 1000.0).position[1].sin()
@@ -81,7 +81,7 @@ fn postures_asked_for_are_kept_to() {
 #[test]
 fn a_goal_given_as_a_configuration_is_reached_exactly() {
     let scene = example("paper-standin");
-    let there = run(&scene, 0, 60_000, 0).unwrap().joint_path.0.pop().unwrap();
+    let there = run(&scene, 0, 60_000, 0).unwrap().joint_path().0.last().unwrap().clone();
     let scene = with_task(&scene, 0, |task| task.goal = Place::Configuration(there));
     for seed in 0..3 {
         let plan = run(&scene, 0, 60_000, seed).unwrap();
@@ -102,7 +102,7 @@ fn arms_of_more_links_pass_narrow_places() {
                 Ok(plan) => {
                     planned += 1;
                     assert_true(&scene, &scene.tasks()[0], &plan);
-                    assert!(plan.lower_bound.is_none());
+                    assert!(plan.lower_bound().is_none());
                 }
                 Err(PlanError::NotFoundInBudget { evaluations }) => assert!(evaluations <= 150_000),
                 Err(other) => panic!("{name}, seed {seed}: {other}"),
@@ -129,7 +129,7 @@ fn budgets_are_kept_to() {
         for evaluations in [0, 1, 10, 300, 3_000] {
             match run(&scene, 0, evaluations, 1) {
                 Err(PlanError::NotFoundInBudget { evaluations: made }) => assert!(made <= evaluations),
-                other => panic!("{name}, {evaluations}: {:?}", other.map(|plan| plan.cost)),
+                other => panic!("{name}, {evaluations}: {:?}", other.map(|plan| plan.cost())),
             }
         }
     }
@@ -155,7 +155,7 @@ fn no_path_is_said_where_it_is_proved_and_bad_tasks_are_refused() {
     assert!(matches!(run(&scene, 0, 50_000, 0), Err(PlanError::Goal(_))));
     let scene = with_task(&example, 0, |task| task.goal = task.start.clone());
     let stays = run(&scene, 0, 0, 0).unwrap();
-    assert_eq!((stays.cost, stays.lower_bound), (0.0, Some(0.0)));
+    assert_eq!((stays.cost(), stays.lower_bound()), (0.0, Some(0.0)));
 
     let five = with_task(&build::example("five-links"), 0, |task| task.posture = TaskPosture::Up);
     assert_eq!(run(&five, 0, 1_000, 0), Err(PlanError::PostureOfMany { links: 5 }));
@@ -185,8 +185,8 @@ fn a_monitor_that_says_no_is_obeyed() {
 #[test]
 fn it_goes_by_its_name() {
     let options = [("evaluations".to_owned(), OptionValue::Count(5))];
-    let planner = Planner::by_name("ik-pso", &options).unwrap();
-    assert_eq!(planner, Planner::IkPso(IkPsoSettings { evaluations: 5 }));
+    let planner = planners::by_name("ik-pso", &options).unwrap();
+    assert_eq!(planner.options(), [("evaluations", OptionValue::Count(5))]);
     assert_eq!(planner.budget(), Some("evaluations"));
-    assert!(Planner::by_name("ik-pso", &[("candidates".to_owned(), OptionValue::Count(5))]).is_err());
+    assert!(planners::by_name("ik-pso", &[("candidates".to_owned(), OptionValue::Count(5))]).is_err());
 }

@@ -14,9 +14,8 @@ use build::example;
 use chain_judge::clearance;
 use elbowroom::geometry::{Circle, Vector};
 use elbowroom::path::{straight_move_is_free, straight_move_keeps};
-use elbowroom::planners::{
-    NameError, Pace, PlanError, PlanSettings, Planner, Unwatched, plan, plan_as_in_paper,
-};
+use elbowroom::planners::{self, DstarPlanner, DstarPsoPlanner, plan_as_in_paper};
+use elbowroom::planning::{Pace, PlanError, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight, TaskPosture};
 use elbowroom::trajectory::Motion;
 use elbowroom::verify::{Against, Trajectory, Verdict, VerifySettings, Violation, verify};
@@ -52,12 +51,10 @@ fn least_clearance(scene: &Scene, motion: &Motion) -> f64 {
 
 /// Every planner by its name says that this obstacle moves.
 fn assert_refused(scene: &Scene, obstacle: usize, called: &str) {
-    let Err(NameError::Planner { known, .. }) = Planner::by_name("", &[]) else { panic!("no such planner") };
-    assert!(known.len() >= 7, "{known:?}");
-    for name in known {
-        let planner = Planner::by_name(name, &[]).unwrap();
+    for planner in planners::all() {
+        let name = planner.name();
         let task = &scene.tasks()[0];
-        let refused = plan(scene, task, &planner, &PlanSettings::default(), &Unwatched).unwrap_err();
+        let refused = plan(scene, task, &*planner, &PlanSettings::default(), &Unwatched).unwrap_err();
         assert_eq!(refused, PlanError::Moving { obstacle, name: Some(called.to_owned()) }, "{name}");
         assert!(refused.to_string().contains(&format!("obstacle '{called}'")), "{refused}");
     }
@@ -91,11 +88,11 @@ fn planned(still: &Scene) -> Vec<(String, Motion)> {
     let mut motions = Vec::new();
     for task in [&still.tasks()[0], &below] {
         for seconds in [4.0, 5.0, 6.0, 8.0, 10.0, 12.0] {
-            for planner in [Planner::Dstar, Planner::default()] {
+            for planner in [&DstarPlanner as &dyn Planner, &DstarPsoPlanner::default()] {
                 let case = format!("{}, {}, {seconds} s", task.name, planner.name());
                 let settings = PlanSettings { pace: Pace::Duration(seconds), ..PlanSettings::default() };
-                match plan(still, task, &planner, &settings, &Unwatched) {
-                    Ok(plan) => motions.push((case, plan.trajectory.into_motion())),
+                match plan(still, task, planner, &settings, &Unwatched) {
+                    Ok(plan) => motions.push((case, plan.trajectory().motion().clone())),
                     Err(PlanError::TooFast { .. }) => {}
                     Err(other) => panic!("{case}: {other}"),
                 }

@@ -15,9 +15,8 @@ use elbowroom::arm::{Arm, JointLimits, MotionLimits, joint_distance};
 use elbowroom::free_space::{FreeSpace, configurations};
 use elbowroom::geometry::{Point, Vector};
 use elbowroom::path::{Jump, JumpKind, TipPath, follow};
-use elbowroom::planners::{
-    Method, Monitor, PaperError, PaperPlan, PaperSettings, Stage, Unwatched, plan_as_in_paper,
-};
+use elbowroom::planners::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
+use elbowroom::planning::{Monitor, Stage, Unwatched};
 use elbowroom::scene::{Place, Scene};
 
 /// The paper's arm; joint 2 within `bend` degrees.

@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 use build::{with_obstacle, with_task};
 use elbowroom::arm::{JointLimits, MotionLimits, Posture};
 use elbowroom::geometry::Point;
-use elbowroom::planners::{
+use elbowroom::planners::{DstarPlanner, DstarPsoPlanner, OptimalPlanner};
+use elbowroom::planning::{
     ASSUMED_LIMITS, Objective, Pace, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, Task, TaskPosture};
@@ -32,18 +33,18 @@ fn with_stops() -> JointLimits {
 fn run_task(
     scene: &Scene,
     task: usize,
-    planner: &Planner,
+    planner: &dyn Planner,
     settings: &PlanSettings,
 ) -> Result<Plan, PlanError> {
     plan(scene, &scene.tasks()[task], planner, settings, &Unwatched)
 }
 
-fn run(scene: &Scene, planner: &Planner, settings: &PlanSettings) -> Result<Plan, PlanError> {
+fn run(scene: &Scene, planner: &dyn Planner, settings: &PlanSettings) -> Result<Plan, PlanError> {
     run_task(scene, 0, planner, settings)
 }
 
 fn by_dstar(scene: &Scene) -> Result<Plan, PlanError> {
-    run(scene, &Planner::Dstar, &PlanSettings::default())
+    run(scene, &DstarPlanner, &PlanSettings::default())
 }
 
 /// Whether the tip or the joints are where `place` says at `q`.
@@ -71,8 +72,8 @@ fn two(q: &[f64]) -> [f64; 2] {
 
 /// All that is promised of a plan, looked at from outside.
 fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
-    let motion = plan.trajectory.motion();
-    assert!(plan.trajectory.verdict().is_safe());
+    let motion = plan.trajectory().motion();
+    assert!(plan.trajectory().verdict().is_safe());
     assert_eq!(judge::fault(scene, motion, 200), None);
     let (first, last) = (motion.at(motion.start()), motion.at(motion.end()));
     assert!(is_at(scene, &task.start, two(&first.position)), "{:?} is not {:?}", first.position, task.start);
@@ -85,8 +86,14 @@ fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
         TaskPosture::Up => assert_ne!(goal, Some(Posture::ElbowDown)),
         TaskPosture::Down => assert_ne!(goal, Some(Posture::ElbowUp)),
         TaskPosture::Keep => {
-            let bends: Vec<f64> = plan.joint_path.0.iter().map(|q| q[1].sin()).collect();
+            let bends: Vec<f64> = plan.joint_path().0.iter().map(|q| q[1].sin()).collect();
             assert!(bends.iter().all(|b| *b >= -1e-9) || bends.iter().all(|b| *b <= 1e-9), "{bends:?}");
+            let looks = (0..=2_000).map(|i| motion.start() + motion.duration() * f64::from(i) / 2_000.0);
+            let bends: Vec<f64> = looks.map(|time| motion.at(time).position[1].sin()).collect();
+            assert!(
+                bends.iter().all(|b| *b >= -1e-9) || bends.iter().all(|b| *b <= 1e-9),
+                "the motion flips"
+            );
         }
         TaskPosture::Any => {}
     }
@@ -99,12 +106,13 @@ fn motions_in_random_worlds_are_safe_by_another_judge() {
         let Some(scene) = worlds::world(seed) else { continue };
         let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
         let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
-        let planner = match seed % 20 {
-            0 => Planner::Optimal,
-            1..=9 => Planner::Dstar,
-            _ => Planner::DstarPso(swarm),
+        let drawn = DstarPsoPlanner { swarm };
+        let planner: &dyn Planner = match seed % 20 {
+            0 => &OptimalPlanner,
+            1..=9 => &DstarPlanner,
+            _ => &drawn,
         };
-        match run(&scene, &planner, &PlanSettings { objective, seed, ..PlanSettings::default() }) {
+        match run(&scene, planner, &PlanSettings { objective, seed, ..PlanSettings::default() }) {
             Ok(plan) => {
                 planned += 1;
                 assert_true(&scene, &scene.tasks()[0], &plan);
@@ -128,9 +136,10 @@ fn near_the_base_no_step_goes_the_wrong_way_round() {
         let scene = worlds::world(seed).unwrap();
         let objective = [Objective::Tip, Objective::Joint, Objective::Time][seed as usize % 3];
         let swarm = GuidedSwarmSettings { candidates: 10, ..GuidedSwarmSettings::default() };
-        let planner = if seed % 2 == 0 { Planner::Dstar } else { Planner::DstarPso(swarm) };
+        let drawn = DstarPsoPlanner { swarm };
+        let planner: &dyn Planner = if seed % 2 == 0 { &DstarPlanner } else { &drawn };
         let plan =
-            run(&scene, &planner, &PlanSettings { objective, seed, ..PlanSettings::default() }).unwrap();
+            run(&scene, planner, &PlanSettings { objective, seed, ..PlanSettings::default() }).unwrap();
         assert_true(&scene, &scene.tasks()[0], &plan);
     }
 }
@@ -140,10 +149,10 @@ fn the_papers_tasks_are_planned_for_both_kinds_of_joint_1() {
     for first in [JointLimits::Continuous, with_stops()] {
         for index in 0..2 {
             let scene = standin(first, MotionLimits::default());
-            for planner in [Planner::Dstar, Planner::default()] {
-                let plan = run_task(&scene, index, &planner, &PlanSettings::default()).unwrap();
+            for planner in [&DstarPlanner as &dyn Planner, &DstarPsoPlanner::default()] {
+                let plan = run_task(&scene, index, planner, &PlanSettings::default()).unwrap();
                 assert_true(&scene, &scene.tasks()[index], &plan);
-                assert!((plan.cost - plan.trajectory.motion().tip_length(scene.arm())).abs() < 1e-12);
+                assert!((plan.cost() - plan.trajectory().motion().tip_length(scene.arm())).abs() < 1e-12);
             }
         }
     }
@@ -155,12 +164,16 @@ fn the_swarm_does_no_worse_than_dstar_by_what_it_was_asked_for() {
         let scene = standin(JointLimits::Continuous, MotionLimits::default());
         for objective in [Objective::Tip, Objective::Joint, Objective::Time] {
             let of = |seed: u64| PlanSettings { objective, seed, ..PlanSettings::default() };
-            let alone = run_task(&scene, index, &Planner::Dstar, &of(0)).unwrap();
-            assert_eq!(alone.paths_to_choose_from, 1);
+            let alone = run_task(&scene, index, &DstarPlanner, &of(0)).unwrap();
+            assert_eq!(alone.record().paths_to_choose_from, 1);
             let costs: Vec<f64> = (0..4)
-                .map(|seed| run_task(&scene, index, &Planner::default(), &of(seed)).unwrap().cost)
+                .map(|seed| run_task(&scene, index, &DstarPsoPlanner::default(), &of(seed)).unwrap().cost())
                 .collect();
-            assert!(costs.iter().all(|cost| *cost <= alone.cost * (1.0 + 1e-9)), "{costs:?} {}", alone.cost);
+            assert!(
+                costs.iter().all(|cost| *cost <= alone.cost() * (1.0 + 1e-9)),
+                "{costs:?} {}",
+                alone.cost()
+            );
         }
     }
 }
@@ -178,8 +191,8 @@ fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
             let scene = scene.with_arm(build::arm_of(scene.arm().lengths(), 0.0, &joints)).unwrap();
             for (index, known) in known.into_iter().enumerate() {
                 let settings = PlanSettings { objective: Objective::Joint, ..PlanSettings::default() };
-                let plan = run_task(&scene, index, &Planner::Optimal, &settings).unwrap();
-                assert!(plan.cost <= 1.01 * known, "{} for {known}", plan.cost);
+                let plan = run_task(&scene, index, &OptimalPlanner, &settings).unwrap();
+                assert!(plan.cost() <= 1.01 * known, "{} for {known}", plan.cost());
             }
         }
     }
@@ -189,8 +202,8 @@ fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
 fn optimal_follows_the_hole_of_the_paper_s_ring_by_a_tangent_and_an_arc() {
     let scene = build::example("paper-empty");
     for (index, length) in [1.16287, 0.80496].into_iter().enumerate() {
-        let plan = run_task(&scene, index, &Planner::Optimal, &PlanSettings::default()).unwrap();
-        assert!((length - 1e-5..=1.005 * length).contains(&plan.cost), "{}", plan.cost);
+        let plan = run_task(&scene, index, &OptimalPlanner, &PlanSettings::default()).unwrap();
+        assert!((length - 1e-5..=1.005 * length).contains(&plan.cost()), "{}", plan.cost());
         assert_true(&scene, &scene.tasks()[index], &plan);
     }
 }
@@ -201,9 +214,9 @@ fn motion_limits_are_kept_and_missing_ones_are_named() {
     let scene = standin(JointLimits::Continuous, motion);
     let plan = by_dstar(&scene).unwrap();
     assert_true(&scene, &scene.tasks()[0], &plan);
-    let assumed: Vec<_> = plan.assumed_limits.iter().map(|a| (a.joint, a.rate, a.value)).collect();
+    let assumed: Vec<_> = plan.record().assumed_limits.iter().map(|a| (a.joint, a.rate, a.value)).collect();
     assert_eq!(assumed, [(1, "jerk", ASSUMED_LIMITS.jerk), (2, "jerk", ASSUMED_LIMITS.jerk)]);
-    let margins = &plan.trajectory.verdict().motion_margins;
+    let margins = &plan.trajectory().verdict().motion_margins;
     let used = margins.iter().flat_map(|m| [m.velocity.largest / 2.0, m.acceleration.largest / 8.0]);
     let used = used.chain(margins.iter().map(|m| m.jerk.largest / ASSUMED_LIMITS.jerk)).fold(0.0, f64::max);
     assert!((0.9..=1.0).contains(&used), "the fastest motion uses {used} of a limit");
@@ -214,9 +227,9 @@ fn a_duration_is_kept_or_refused() {
     let motion = MotionLimits { velocity: Some(2.0), acceleration: Some(8.0), jerk: Some(80.0) };
     let scene = standin(JointLimits::Continuous, motion);
     let lasting = |seconds: f64| PlanSettings { pace: Pace::Duration(seconds), ..PlanSettings::default() };
-    let at = |seconds: f64| run(&scene, &Planner::Dstar, &lasting(seconds));
+    let at = |seconds: f64| run(&scene, &DstarPlanner, &lasting(seconds));
     let slow = at(30.0).unwrap();
-    assert!((slow.trajectory.motion().duration() - 30.0).abs() < 1e-9);
+    assert!((slow.trajectory().motion().duration() - 30.0).abs() < 1e-9);
     assert_true(&scene, &scene.tasks()[0], &slow);
     let Err(PlanError::TooFast { duration, fastest }) = at(0.1) else { panic!("0.1 s is too fast") };
     assert_eq!(duration, 0.1);
@@ -225,7 +238,7 @@ fn a_duration_is_kept_or_refused() {
         assert!(matches!(at(seconds), Err(PlanError::Duration { .. })));
     }
     let unlimited = standin(JointLimits::Continuous, MotionLimits::default());
-    assert!(run(&unlimited, &Planner::Dstar, &lasting(0.1)).is_ok(), "no stated limit forbids it");
+    assert!(run(&unlimited, &DstarPlanner, &lasting(0.1)).is_ok(), "no stated limit forbids it");
 }
 
 #[test]
@@ -256,9 +269,9 @@ fn a_flip_passes_through_full_stretch() {
     let scene = with_task(&scene, 0, |task| [task.start, task.goal] = ends);
     let plan = by_dstar(&scene).unwrap();
     assert_true(&scene, &scene.tasks()[0], &plan);
-    let changes = &plan.trajectory.verdict().posture_changes;
+    let changes = &plan.trajectory().verdict().posture_changes;
     assert_eq!(changes.len(), 1);
-    let there = plan.trajectory.motion().at(changes[0]);
+    let there = plan.trajectory().motion().at(changes[0]);
     assert!(there.position[1].abs() < 1e-6, "{there:?}");
     let scene = with_task(&scene, 0, |task| task.posture = TaskPosture::Keep);
     assert!(matches!(by_dstar(&scene), Err(PlanError::NoPath(_))));
@@ -268,17 +281,17 @@ fn a_flip_passes_through_full_stretch() {
 fn an_arm_that_is_there_already_stands_still() {
     let scene = standin(JointLimits::Continuous, MotionLimits::default());
     let scene = with_task(&scene, 0, |task| task.goal = task.start.clone());
-    let plan = run(&scene, &Planner::default(), &PlanSettings::default()).unwrap();
-    assert_eq!((plan.cost, plan.trajectory.motion().duration()), (0.0, 0.0));
+    let plan = run(&scene, &DstarPsoPlanner::default(), &PlanSettings::default()).unwrap();
+    assert_eq!((plan.cost(), plan.trajectory().motion().duration()), (0.0, 0.0));
     let pace = Pace::Duration(10.0);
-    let waiting = run(&scene, &Planner::Dstar, &PlanSettings { pace, ..PlanSettings::default() }).unwrap();
-    assert_eq!(waiting.cost, 0.0);
+    let waiting = run(&scene, &DstarPlanner, &PlanSettings { pace, ..PlanSettings::default() }).unwrap();
+    assert_eq!(waiting.cost(), 0.0);
 }
 
 #[test]
 fn same_seed_same_plan() {
     let scene = standin(JointLimits::Continuous, MotionLimits::default());
     let settings = PlanSettings { objective: Objective::Joint, seed: 5, ..PlanSettings::default() };
-    let planned = || run(&scene, &Planner::default(), &settings).unwrap();
+    let planned = || run(&scene, &DstarPsoPlanner::default(), &settings).unwrap();
     assert_eq!(planned(), planned());
 }

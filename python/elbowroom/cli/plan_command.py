@@ -20,8 +20,12 @@ def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
     planner: Annotated[
-        str, typer.Option(help=f"{', '.join(OWN)}; options as NAME:OPTION=VALUE:OPTION=VALUE.")
-    ] = "dstar-pso",
+        str | None,
+        typer.Option(
+            help=f"{', '.join(OWN)}, or a plug-in; options as NAME:OPTION=VALUE:OPTION=VALUE. "
+            "Left out: dstar-pso for two links, guided-rrt-connect for more."
+        ),
+    ] = None,
     objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
     seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
@@ -44,11 +48,11 @@ def plan_command(
         from elbowroom.plan import plan as make_plan
         from elbowroom.plan_files import as_json as document
         from elbowroom.plan_files import write_plan
-        from elbowroom.planners import own_chosen
+        from elbowroom.planners import chosen
         from elbowroom.scene import Scene
 
         seconds = _seconds(duration)
-        choice = own_chosen(planner)
+        choice = None if planner is None else chosen(planner)
         if animate and out is None:
             raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
         loaded = Scene.load(scene)
@@ -57,8 +61,8 @@ def plan_command(
                 lambda: make_plan(
                     loaded,
                     task=task,
-                    planner=choice.name,
-                    options=choice.given,  # type: ignore[arg-type]
+                    planner=None if choice is None else choice.name,
+                    options=None if choice is None else choice.given,
                     objective=objective,  # type: ignore[arg-type]
                     seed=seed,
                     timeout=timeout,

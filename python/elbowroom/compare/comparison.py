@@ -15,8 +15,9 @@ from elbowroom.compare.row import Problem, Row
 from elbowroom.compare.table import Table, in_order, parquet_is_there, write_parquet
 from elbowroom.compare.worker import Batch
 from elbowroom.errors import BadSetting
-from elbowroom.plan import Objective
 from elbowroom.planners import Choice
+from elbowroom.planners import given as choice_of
+from elbowroom.plugins import Objective, PlannerPlugin
 from elbowroom.scene import Scene, text_of
 from elbowroom.whole import check_whole, is_whole
 
@@ -52,7 +53,7 @@ class Comparison:
 def compare(
     scenes: Sequence[Path],
     *,
-    planners: Sequence[Choice],
+    planners: Sequence[Choice | PlannerPlugin],
     out: Path,
     tasks: Collection[str] | None = None,
     seeds: Sequence[int] = range(30),
@@ -69,7 +70,9 @@ def compare(
 
     Args:
         scenes: Files.
-        planners: As ``elbowroom.planners.all_chosen`` gives them.
+        planners: As ``elbowroom.planners.all_chosen`` gives them, and callables like
+            ``elbowroom.planners.PlannerPlugin``: functions at the top level of a module or script, which the processes
+            that run them can find.
         out: Folder of ``rows.jsonl``, made if need be.
         tasks: Names of the tasks to do in each scene; None for all that it has.
         seeds: Of the planners.
@@ -85,9 +88,10 @@ def compare(
         SceneError: A file cannot be read, or is no scene.
         DamagedTable: The folder holds a table with a line that is no row.
     """
+    choices = [planner if isinstance(planner, Choice) else choice_of(planner) for planner in planners]
     _check(
         scenes,
-        planners=planners,
+        planners=choices,
         tasks=tasks,
         seeds=seeds,
         budget=budget,
@@ -96,7 +100,7 @@ def compare(
         jobs=jobs,
         on=on,
     )
-    asked = list(_asked(scenes, planners, tasks, seeds, budget=budget, timeout=timeout, objective=objective))
+    asked = list(_asked(scenes, choices, tasks, seeds, budget=budget, timeout=timeout, objective=objective))
     problems = [problem for batch in asked for problem in batch.problems]
     table = Table(out / "rows.jsonl")
     workers = jobs or cores()

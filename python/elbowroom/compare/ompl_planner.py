@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from elbowroom.compare.straight_turns import straight_turns
 from elbowroom.errors import BadSetting, NotFound, TimedOut
-from elbowroom.plan import Objective
-from elbowroom.planners import Proposal
+from elbowroom.plugins import Objective, Proposal
 from elbowroom.scene import Configuration, Place, Scene
 
 try:

@@ -13,8 +13,8 @@ from msgspec.structs import asdict, fields
 
 from elbowroom._core import __version__
 from elbowroom.errors import ElbowroomError
-from elbowroom.plan import Objective
-from elbowroom.planners import Choice, Option
+from elbowroom.planners import Choice
+from elbowroom.plugins import Objective, Option
 
 Failure = Literal[
     "no_path",

@@ -9,12 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from elbowroom._core import Check, Plan, gap, verify
+from elbowroom._core import Check, Plan, gap, mismatch, verify
 from elbowroom.check import check
-from elbowroom.compare.measure import lengths, misses
+from elbowroom.compare.measure import lengths
 from elbowroom.compare.row import Failure, Problem, Row
 from elbowroom.errors import BadSetting, NoPath, NotFound, NotFree, TimedOut, TrajectoryError, UnknownTask
-from elbowroom.planners import BrokenPlugin, OwnPlanner, PlannerPlugin, Proposal, load
+from elbowroom.planners import OwnPlanner, load
+from elbowroom.plugins import BrokenPlugin, PlannerPlugin, Proposal
 from elbowroom.scene import Scene
 
 
@@ -103,7 +104,7 @@ def _judged(problem: Problem, scene: Scene, answer: Any, begun: float, *, own: b
     if not verdict.safe:
         reasons = "; ".join(violation.message for violation in verdict.violations[:2])
         return Row.failed(problem, "unsafe", reasons, time_s=spent, **known)
-    if missed := misses(scene, problem.task, motion, verdict):
+    if missed := mismatch(scene, problem.task, motion, verdict.posture_changes):
         return Row.failed(problem, "wrong_end", missed, time_s=spent, **known)
     if false_bound:
         message = f"the planner claims that no motion costs less than {bound:.9g}; its own costs {cost:.9g}"

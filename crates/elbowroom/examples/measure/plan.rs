@@ -1,4 +1,5 @@
-use elbowroom::planners::{Objective, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::planners;
+use elbowroom::planning::{Objective, PlanSettings, Unwatched, plan};
 use elbowroom::scene::parse;
 use elbowroom::verify::{VerifySettings, verify};
 use serde_json::json;
@@ -13,21 +14,21 @@ pub(crate) fn measure([file, task, points, planner, objective]: [&str; 5], runs:
         points => scenes::load(file, points.parse()?)?,
     };
     let task = scene.task(task).ok_or("no such task")?;
-    let planner = Planner::by_name(planner, &[])?;
+    let planner = planners::by_name(planner, &[])?;
     let objective = [Objective::Tip, Objective::Joint, Objective::Time]
         .into_iter()
         .find(|known| known.name() == objective)
         .ok_or("no such objective")?;
     let settings = PlanSettings { objective, ..PlanSettings::default() };
-    let (times, found) = runs::times(runs, || plan(&scene, task, &planner, &settings, &Unwatched));
+    let (times, found) = runs::times(runs, || plan(&scene, task, &*planner, &settings, &Unwatched));
     let found = found?;
-    let motion = found.trajectory.motion();
+    let motion = found.trajectory().motion();
     let (verdicts, verdict) = runs::times(runs, || verify(&scene, motion, &VerifySettings::default()));
     Ok(json!({
         "times_ms": times,
         "verify_ms": verdicts,
-        "cost": found.cost,
-        "path_cost": found.path_cost,
+        "cost": found.cost(),
+        "path_cost": found.record().path_cost,
         "duration": motion.duration(),
         "safe": verdict.is_safe(),
     }))

@@ -1,4 +1,4 @@
-use elbowroom::planners::ASSUMED_LIMITS;
+use elbowroom::planning::ASSUMED_LIMITS;
 use elbowroom::trajectory::{Motion, fastest_durations, quintic_through, vias_at};
 use elbowroom::verify::{Trajectory, VerifySettings};
 use serde_json::json;

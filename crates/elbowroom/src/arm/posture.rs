@@ -36,6 +36,11 @@ impl Posture {
         }
     }
 
+    /// The posture at `q`, a position per joint; `None` where both meet, and for arms of more links, which have no two.
+    pub fn at(q: &[f64]) -> Option<Self> {
+        Self::of(<&[f64; 2]>::try_from(q).ok()?)
+    }
+
     /// The word for it in files and on the command line: `elbow-up` or `elbow-down`.
     pub const fn name(self) -> &'static str {
         match self {

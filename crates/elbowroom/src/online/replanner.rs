@@ -10,7 +10,7 @@ use super::settings::{ASTRAY, HOLD, LOOK_EVERY};
 use super::update::{Decision, Update};
 use crate::arm::joint_distance;
 use crate::free_space::{NotFree, configurations};
-use crate::planners::{PlanError, motion_limits};
+use crate::planning::{PlanError, motion_limits};
 use crate::scene::{Place, Scene, TwoLinkError};
 use crate::trajectory::{Motion, SpeedLimits, State, TICK};
 use crate::verify::{Verdict, Violation};

@@ -3,7 +3,8 @@ use thiserror::Error;
 use super::placed::{AWAY, still};
 use crate::free_space::{ChangedCells, FreeSpace};
 use crate::path::{JointPath, straight_move_is_free};
-use crate::planners::{ChangingGraph, Endpoints, Goal, Kept, PlanError, Planner, Unwatched};
+use crate::planners::{ChangingGraph, DstarPlanner, Goal, Kept};
+use crate::planning::{Endpoints, PlanError, Planner, Unwatched};
 use crate::scene::{Obstacle, Scene, SceneProblem, Shape, Task, TwoLinkError};
 use crate::search::{Dstar, Graph, Progress, Until};
 
@@ -90,9 +91,12 @@ impl Roadmap {
     /// that moves by itself.
     pub fn new(scene: Scene, task: &Task) -> Result<Self, PlanError> {
         let two_link = scene.two_link().map_err(|error| match error {
-            TwoLinkError::Links { found } => {
-                PlanError::OtherArm { planner: Planner::Dstar.name(), links: found }
-            }
+            TwoLinkError::Links { found } => PlanError::OtherArm {
+                planner: DstarPlanner.name().to_owned(),
+                least: 2,
+                most: 2,
+                links: found,
+            },
             TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
         })?;
         let ends = Endpoints::new(&still(&scene, |_, _| Some(AWAY)), task, 0, &Unwatched)?;

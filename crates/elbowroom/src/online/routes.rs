@@ -3,7 +3,7 @@
 use super::placed::{AWAY, placed, still};
 use super::roadmap::Roadmap;
 use crate::path::JointPath;
-use crate::planners::PlanError;
+use crate::planning::PlanError;
 use crate::scene::{Course, Obstacle, Place, Scene, Task, TaskPosture};
 
 /// Paths to a goal from wherever the arm is, kept up to date while obstacles move.

@@ -1,33 +1,37 @@
-//! Planners and their options by name, as the command line and Python ask for them: the one list of them.
-
-use std::fmt;
-use std::ops::RangeInclusive;
+//! Planners and their options by name, as the command line and Python ask for them.
 
 use thiserror::Error;
 
-use super::planner::Planner;
-use super::{CbpsoSettings, IkPsoSettings, Initialisation, NscPsoSettings, PsoSettings};
-use crate::swarm::{GuidedSwarmSettings, Neighbourhood};
+use crate::planning::{OptionValue, Planner};
 
-/// The most candidates that a planner may be told to judge.
-const MOST_EVALUATIONS: usize = 1_000_000_000;
-
-/// The value of an option.
-#[derive(Debug, Clone, PartialEq)]
-pub enum OptionValue {
-    /// A whole number.
-    Count(usize),
-    /// One of a few words.
-    Word(String),
+/// The one of `planners` called `name`, with these options in place of its defaults.
+pub(super) fn named(
+    planners: Vec<Box<dyn Planner>>,
+    name: &str,
+    options: &[(String, OptionValue)],
+) -> Result<Box<dyn Planner>, NameError> {
+    let mut known = Vec::new();
+    for mut planner in planners {
+        if planner.name() != name {
+            known.push(planner.name().to_owned());
+            continue;
+        }
+        for (option, value) in options {
+            set(&mut *planner, option, value)?;
+        }
+        return Ok(planner);
+    }
+    Err(NameError::Planner { name: name.to_owned(), known })
 }
 
-impl fmt::Display for OptionValue {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Count(count) => write!(f, "{count}"),
-            Self::Word(word) => write!(f, "'{word}'"),
-        }
-    }
+fn set(planner: &mut dyn Planner, option: &str, value: &OptionValue) -> Result<(), NameError> {
+    let known: Vec<&'static str> = planner.options().into_iter().map(|(name, _)| name).collect();
+    let name = planner.name().to_owned();
+    let Some(option) = known.iter().copied().find(|known| *known == option) else {
+        return Err(NameError::Option { planner: name, option: option.to_owned(), known });
+    };
+    let refused = |allowed| NameError::Value { planner: name, option, value: value.clone(), allowed };
+    planner.set(option, value).map_err(refused)
 }
 
 /// Why a planner's name and options name none.
@@ -39,13 +43,13 @@ pub enum NameError {
         /// What was asked for.
         name: String,
         /// Those there are.
-        known: Vec<&'static str>,
+        known: Vec<String>,
     },
     /// It has no such option.
     #[error("planner {planner} has no option '{}'; known: {}", option.escape_debug(), listed(known))]
     Option {
         /// Which planner.
-        planner: &'static str,
+        planner: String,
         /// What was asked for.
         option: String,
         /// Those it has.
@@ -55,7 +59,7 @@ pub enum NameError {
     #[error("option {option} of planner {planner} is {value}, it must be {allowed}")]
     Value {
         /// Which planner.
-        planner: &'static str,
+        planner: String,
         /// Which option.
         option: &'static str,
         /// What was given.
@@ -67,122 +71,4 @@ pub enum NameError {
 
 fn listed(known: &[&'static str]) -> String {
     if known.is_empty() { "it has none".to_owned() } else { known.join(", ") }
-}
-
-impl Planner {
-    /// Every planner with its default options.
-    pub fn all() -> Vec<Self> {
-        vec![
-            Self::DstarPso(GuidedSwarmSettings::default()),
-            Self::Dstar,
-            Self::Optimal,
-            Self::Pso(PsoSettings::default()),
-            Self::Cbpso(CbpsoSettings::default()),
-            Self::NscPso(NscPsoSettings::default()),
-            Self::IkPso(IkPsoSettings::default()),
-        ]
-    }
-
-    /// The planner called `name`, with these options in place of its defaults.
-    ///
-    /// # Errors
-    /// [`NameError`] for a name or option that is not known, which lists those that are, or a value that makes no sense.
-    pub fn by_name(name: &str, options: &[(String, OptionValue)]) -> Result<Self, NameError> {
-        let all = Self::all();
-        let known = all.iter().map(Self::name).collect();
-        let unknown = || NameError::Planner { name: name.to_owned(), known };
-        let mut planner = all.into_iter().find(|planner| planner.name() == name).ok_or_else(unknown)?;
-        for (option, value) in options {
-            planner.set(option, value)?;
-        }
-        Ok(planner)
-    }
-
-    /// Its options and their values.
-    pub fn options(&self) -> Vec<(&'static str, OptionValue)> {
-        let count = |count: usize| OptionValue::Count(count);
-        let word = |word: &str| OptionValue::Word(word.to_owned());
-        match self {
-            Self::Dstar | Self::Optimal => Vec::new(),
-            Self::DstarPso(own) => vec![("candidates", count(own.candidates))],
-            Self::Pso(own) => vec![
-                ("vias", count(own.vias)),
-                (
-                    "neighbourhood",
-                    word(match own.neighbourhood {
-                        Neighbourhood::Global => "global",
-                        Neighbourhood::Ring { .. } => "ring",
-                    }),
-                ),
-                ("evaluations", count(own.evaluations)),
-            ],
-            Self::Cbpso(own) => vec![("vias", count(own.vias)), ("evaluations", count(own.evaluations))],
-            Self::NscPso(own) => vec![
-                ("waypoints", count(own.waypoints)),
-                (
-                    "initialisation",
-                    word(match own.initialisation {
-                        Initialisation::StepCost => "step-cost",
-                        Initialisation::Uniform => "uniform",
-                    }),
-                ),
-                ("evaluations", count(own.evaluations)),
-            ],
-            Self::IkPso(own) => vec![("evaluations", count(own.evaluations))],
-        }
-    }
-
-    /// The option that limits how many candidates it judges, if it counts them.
-    pub fn budget(&self) -> Option<&'static str> {
-        match self {
-            Self::Dstar | Self::Optimal => None,
-            Self::DstarPso(_) => Some("candidates"),
-            Self::IkPso(_) | Self::Pso(_) | Self::Cbpso(_) | Self::NscPso(_) => Some("evaluations"),
-        }
-    }
-
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), NameError> {
-        let planner = self.name();
-        let known: Vec<&'static str> = self.options().into_iter().map(|(name, _)| name).collect();
-        let Some(option) = known.iter().copied().find(|name| *name == option) else {
-            return Err(NameError::Option { planner, option: option.to_owned(), known });
-        };
-        let refused =
-            |allowed: &'static str| NameError::Value { planner, option, value: value.clone(), allowed };
-        let count = |range: RangeInclusive<usize>, allowed: &'static str| match value {
-            OptionValue::Count(count) if range.contains(count) => Ok(*count),
-            _ => Err(refused(allowed)),
-        };
-        let word = |words: [&str; 2], allowed: &'static str| match value {
-            OptionValue::Word(found) if found == words[0] => Ok(true),
-            OptionValue::Word(found) if found == words[1] => Ok(false),
-            _ => Err(refused(allowed)),
-        };
-        let evaluations = || count(1..=MOST_EVALUATIONS, "a whole number from 1 to 1000000000");
-        let few = || count(1..=64, "a whole number from 1 to 64");
-        match (self, option) {
-            (Self::DstarPso(own), _) => own.candidates = count(0..=usize::MAX, "a whole number")?,
-            (Self::IkPso(own), _) => own.evaluations = evaluations()?,
-            (Self::Pso(own), "vias") => own.vias = few()?,
-            (Self::Pso(own), "neighbourhood") => {
-                own.neighbourhood = match word(["global", "ring"], "global or ring")? {
-                    true => Neighbourhood::Global,
-                    false => Neighbourhood::Ring { k: 2 },
-                };
-            }
-            (Self::Pso(own), _) => own.evaluations = evaluations()?,
-            (Self::Cbpso(own), "vias") => own.vias = few()?,
-            (Self::Cbpso(own), _) => own.evaluations = evaluations()?,
-            (Self::NscPso(own), "waypoints") => own.waypoints = few()?,
-            (Self::NscPso(own), "initialisation") => {
-                own.initialisation = match word(["step-cost", "uniform"], "step-cost or uniform")? {
-                    true => Initialisation::StepCost,
-                    false => Initialisation::Uniform,
-                };
-            }
-            (Self::NscPso(own), _) => own.evaluations = evaluations()?,
-            (Self::Dstar | Self::Optimal, _) => {}
-        }
-        Ok(())
-    }
 }

@@ -1,74 +1,47 @@
-//! `dstar-pso` for arms of more than two links: D* over the tip's workspace guides, a swarm finds the configurations.
+use std::ops::RangeInclusive;
 
-use super::chain::{Guide, Halt, Leader, Ledger, Trees, price, shortened};
-use super::endpoints::Endpoints;
-use super::finish::along;
-use super::settings::PlanSettings;
-use super::{Monitor, Plan, PlanError, Stage};
-use crate::arm::Configuration;
-use crate::path::JointPath;
-use crate::scene::{Place, Scene, Task};
+use super::over_grid::{Choice, over_grid};
+use crate::planning::{Found, OptionValue, PlanError, Planner, Problem, Round};
 use crate::swarm::GuidedSwarmSettings;
 
-/// How many configurations and turns are judged for each candidate path that the settings allow.
-const EVALUATIONS_PER_CANDIDATE: usize = 2_000;
-
-/// Candidate paths that are enough.
-const ENOUGH: usize = 8;
-
-/// Plans `task`: two trees of configurations grow along the guides' ways until they meet, several times over; the best of the
-/// paths, made shorter by certified turns, becomes a motion.
+/// `dstar-pso`, the paper's: of D*'s own paths over grid points and postures, and those that the modified lbest swarm draws
+/// over its cost-to-go, the best; for arms of two links.
 ///
-/// # Errors
-/// [`PlanError`]
-pub(crate) fn plan(
-    scene: &Scene,
-    task: &Task,
-    swarm: &GuidedSwarmSettings,
-    settings: &PlanSettings,
-    monitor: &impl Monitor,
-) -> Result<Plan, PlanError> {
-    let ends = Endpoints::new(scene, task, settings.seed, monitor)?;
-    let budget = swarm.candidates.saturating_mul(EVALUATIONS_PER_CANDIDATE);
-    let mut leader = Leader::new(scene, Ledger::new(budget, monitor), settings.seed);
-    if let Some(q) = ends.already_there() {
-        let effort = leader.ledger.effort();
-        return along(scene, JointPath(vec![q.clone()]), settings, effort, monitor);
-    }
-    monitor.stage(Stage::FreeSpace);
-    let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
-    let to_goals = Guide::new(scene, &tips(&ends.goals), monitor)?;
-    let to_starts = to_goals.towards(&tips(&ends.starts))?;
-    let asked = [&task.goal, &task.start].map(|place| match place {
-        Place::Tip(tip) => Some(*tip),
-        Place::Configuration(_) => None,
-    });
+/// # Reference
+/// The paper's sections 4, 6 and 7; what is certified is ours.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DstarPsoPlanner {
+    /// How the swarm draws.
+    pub swarm: GuidedSwarmSettings,
+}
 
-    monitor.stage(Stage::TipPath);
-    let trees = Trees::new(&ends, asked, to_goals, to_starts);
-    let mut paths: Vec<(f64, JointPath)> = Vec::new();
-    while paths.len() < ENOUGH.min(swarm.candidates) {
-        let drawn = trees.path(&mut leader).and_then(|path| shortened(&mut leader, path, settings.objective));
-        match drawn {
-            Ok(path) => {
-                let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
-                leader.ledger.found(price);
-                paths.push((price, path));
-            }
-            Err(Halt::Spent) => break,
-            Err(Halt::Failed(error)) => return Err(error),
-        }
+impl Planner for DstarPsoPlanner {
+    fn name(&self) -> &str {
+        "dstar-pso"
     }
-    paths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let effort = leader.ledger.effort();
-    let choice = paths.len();
-    let mut refused = PlanError::NotFoundInBudget { evaluations: effort.evaluations };
-    for (_, path) in paths {
-        match along(scene, path, settings, effort.clone(), monitor) {
-            Ok(plan) => return Ok(Plan { paths_to_choose_from: choice, ..plan }),
-            Err(PlanError::Stopped) => return Err(PlanError::Stopped),
-            Err(error) => refused = error,
-        }
+
+    fn links(&self) -> RangeInclusive<usize> {
+        2..=2
     }
-    Err(refused)
+
+    fn options(&self) -> Vec<(&'static str, OptionValue)> {
+        vec![("candidates", OptionValue::Count(self.swarm.candidates))]
+    }
+
+    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), &'static str> {
+        self.swarm.candidates = value.count_in(0..=usize::MAX).ok_or("a whole number")?;
+        Ok(())
+    }
+
+    fn budget(&self) -> Option<&'static str> {
+        Some("candidates")
+    }
+
+    fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
+        self.swarm.check().map_err(|error| PlanError::BadSettings {
+            planner: self.name().to_owned(),
+            reason: error.to_string(),
+        })?;
+        over_grid(problem, self.name(), Choice::Drawn(&self.swarm))
+    }
 }

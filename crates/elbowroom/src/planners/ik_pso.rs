@@ -3,16 +3,13 @@
 //! IK-PSO-style, our reconstruction after Rokbani and Alimi (2013), which says nothing of obstacles: the way is D*'s over the
 //! tip's workspace, contact orders particles by Deb's rule, and every turn is certified.
 
-use super::bound::coarse_least_cost;
-use super::chain::{Guide, Halt, Leader, Ledger, price, shortened};
-use super::endpoints::{Endpoints, posture};
-use super::finish::along;
-use super::settings::PlanSettings;
-use super::{Monitor, Plan, PlanError, Stage};
+use super::swarms::MOST_EVALUATIONS;
+use super::tip_guided::{Guide, Leader, price, shortened};
 use crate::arm::{Configuration, Posture, joint_distance, lerp};
 use crate::geometry::Point;
 use crate::path::JointPath;
-use crate::scene::{Place, Scene, Task};
+use crate::planning::{Budget, Exhausted, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
+use crate::scene::Place;
 
 /// How far the tip is led in one step, as a share of the reach.
 const STRIDE: f64 = 0.04;
@@ -47,104 +44,96 @@ const MOST_CELLS: usize = 1 << 21;
 /// Paths that are made into motions, at the most, until one is accepted.
 const MOST_MOTIONS: usize = 8;
 
-/// How [`Planner::IkPso`](super::Planner::IkPso) searches.
+/// `ik-pso`: inverse kinematics by a swarm along D*'s way of the tip, each configuration near the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct IkPsoSettings {
+pub struct IkPsoPlanner {
     /// How many configurations are judged, at the most: each is one value of a swarm's fitness, or the end of a turn.
     pub evaluations: usize,
 }
 
-impl Default for IkPsoSettings {
+impl Default for IkPsoPlanner {
     fn default() -> Self {
         Self { evaluations: 200_000 }
     }
 }
 
-/// Plans `task`: the tip is led along the guide's way, the guide repaired where the arm cannot follow, from one start after the
-/// other until the budget is spent; the best path becomes a motion.
-///
-/// # Errors
-/// [`PlanError`]
-pub(crate) fn plan(
-    scene: &Scene,
-    task: &Task,
-    ik: &IkPsoSettings,
-    settings: &PlanSettings,
-    monitor: &impl Monitor,
-) -> Result<Plan, PlanError> {
-    let ends = Endpoints::new(scene, task, settings.seed, monitor)?;
-    let lower_bound = coarse_least_cost(scene, &ends, settings, monitor)?;
-    let mut leader = Leader::new(scene, Ledger::new(ik.evaluations, monitor), settings.seed);
-    if let Some(q) = ends.already_there() {
-        let path = JointPath(vec![q.clone()]);
-        let plan = along(scene, path, settings, leader.ledger.effort(), monitor)?;
-        return Ok(Plan { lower_bound, ..plan });
+impl Planner for IkPsoPlanner {
+    fn name(&self) -> &str {
+        "ik-pso"
     }
-    monitor.stage(Stage::FreeSpace);
-    let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<Point>>();
-    let to_goals = Guide::new(scene, &tips(&ends.goals), monitor)?;
-    let to_starts = to_goals.towards(&tips(&ends.starts))?;
 
-    monitor.stage(Stage::JointPath);
-    let any_posture = scene.arm().links() > 2;
-    let target = |place: &Place, ends| match place {
-        Place::Tip(tip) if any_posture => Target::Tip(*tip),
-        _ => Target::Configurations(ends),
-    };
-    // Out of a narrow place and into it are not the same: every other run goes from the goal to the start.
-    let ways = [
-        (&ends.starts, target(&task.goal, &ends.goals), &to_goals),
-        (&ends.goals, target(&task.start, &ends.starts), &to_starts),
-    ];
-    // What is learnt from one root stays with it, as far as memory goes.
-    let most = (MOST_CELLS / scene.grid().len()).max(2);
-    let mut guides = ways.map(|(roots, _, guide)| vec![guide.clone(); roots.len().min(most)]);
-    let mut paths: Vec<(f64, JointPath)> = Vec::new();
-    for run in 0_usize.. {
-        let (roots, target, _) = ways[run % 2];
-        let round = run / 2;
-        let root = &roots[round % roots.len()];
-        leader.kept =
-            (ends.keep_posture).then(|| posture(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
-        let kept = guides[run % 2].len();
-        let guide = &mut guides[run % 2][round % roots.len() % kept];
-        let follower = Follower { guide, target, most: ik.evaluations / SHARE };
-        // Every run counts, so that the budget ends them.
-        let path = leader.ledger.spend(1).and_then(|()| follower.path(&mut leader, root));
-        let found = match path {
-            Ok(Some(mut path)) => {
-                if run % 2 == 1 {
-                    path.reverse();
-                }
-                shortened(&mut leader, path, settings.objective)
-            }
-            Ok(None) => continue,
-            Err(halt) => Err(halt),
+    fn options(&self) -> Vec<(&'static str, OptionValue)> {
+        vec![("evaluations", OptionValue::Count(self.evaluations))]
+    }
+
+    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), &'static str> {
+        self.evaluations =
+            value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?;
+        Ok(())
+    }
+
+    fn budget(&self) -> Option<&'static str> {
+        Some("evaluations")
+    }
+
+    /// The tip is led along the guide's way, the guide repaired where the arm cannot follow, from one start after the
+    /// other until the budget is spent.
+    fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
+        let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
+        let mut leader = Leader::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        monitor.stage(Stage::FreeSpace);
+        let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<Point>>();
+        let to_goals = Guide::new(scene, &tips(&ends.goals), *monitor)?;
+        let to_starts = to_goals.towards(&tips(&ends.starts))?;
+
+        monitor.stage(Stage::JointPath);
+        let any_posture = scene.arm().links() > 2;
+        let target = |place: &Place, ends| match place {
+            Place::Tip(tip) if any_posture => Target::Tip(*tip),
+            _ => Target::Configurations(ends),
         };
-        match found {
-            Ok(path) => {
-                let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
-                leader.ledger.found(price);
-                paths.push((price, path));
+        // Out of a narrow place and into it are not the same: every other run goes from the goal to the start.
+        let ways = [
+            (&ends.starts, target(&problem.task.goal, &ends.goals), &to_goals),
+            (&ends.goals, target(&problem.task.start, &ends.starts), &to_starts),
+        ];
+        // What is learnt from one root stays with it, as far as memory goes.
+        let most = (MOST_CELLS / scene.grid().len()).max(2);
+        let mut guides = ways.map(|(roots, _, guide)| vec![guide.clone(); roots.len().min(most)]);
+        let mut paths: Vec<(f64, JointPath)> = Vec::new();
+        for run in 0_usize.. {
+            let (roots, target, _) = ways[run % 2];
+            let round = run / 2;
+            let root = &roots[round % roots.len()];
+            leader.kept = (ends.keep_posture)
+                .then(|| Posture::at(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
+            let kept = guides[run % 2].len();
+            let guide = &mut guides[run % 2][round % roots.len() % kept];
+            let follower = Follower { guide, target, most: self.evaluations / SHARE };
+            // Every run counts, so that the budget ends them.
+            let path = leader.budget.spend(1).and_then(|()| follower.path(&mut leader, root));
+            let found = match path {
+                Ok(Some(mut path)) => {
+                    if run % 2 == 1 {
+                        path.reverse();
+                    }
+                    shortened(&mut leader, path, settings.objective)
+                }
+                Ok(None) => continue,
+                Err(halt) => Err(halt),
+            };
+            match found {
+                Ok(path) => {
+                    let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
+                    leader.budget.found(price);
+                    paths.push((price, path));
+                }
+                Err(Exhausted::Spent) => break,
+                Err(Exhausted::Failed(error)) => return Err(error),
             }
-            Err(Halt::Spent) => break,
-            Err(Halt::Failed(error)) => return Err(error),
         }
+        Ok(leader.found(paths, MOST_MOTIONS))
     }
-    paths.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let effort = leader.ledger.effort();
-    let choice = paths.len();
-    let mut refused = PlanError::NotFoundInBudget { evaluations: effort.evaluations };
-    for (_, path) in paths.into_iter().take(MOST_MOTIONS) {
-        match along(scene, path, settings, effort.clone(), monitor) {
-            // A smooth motion may cut through full stretch where its path only comes near.
-            Ok(plan) if ends.keep_posture && !plan.trajectory.verdict().posture_changes.is_empty() => {}
-            Ok(plan) => return Ok(Plan { lower_bound, paths_to_choose_from: choice, ..plan }),
-            Err(PlanError::Stopped) => return Err(PlanError::Stopped),
-            Err(error) => refused = error,
-        }
-    }
-    Err(refused)
 }
 
 /// What ends a path.
@@ -166,22 +155,18 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     /// A path from `start` to the goal; `None` where the run gets nowhere.
-    fn path<M: Monitor>(
-        self,
-        leader: &mut Leader<'_, M>,
-        start: &[f64],
-    ) -> Result<Option<Vec<Configuration>>, Halt> {
+    fn path(self, leader: &mut Leader<'_>, start: &[f64]) -> Result<Option<Vec<Configuration>>, Exhausted> {
         let reach = leader.scene.arm().reach()[1];
-        let begun = leader.ledger.made();
+        let begun = leader.budget.made();
         let steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
         let mut path = vec![Configuration::from(start)];
         let mut troubles = 0;
-        while troubles < MOST_TROUBLES && leader.ledger.made() - begun < self.most {
+        while troubles < MOST_TROUBLES && leader.budget.made() - begun < self.most {
             // Every round counts, so that the budget ends them.
-            leader.ledger.spend(1)?;
+            leader.budget.spend(1)?;
             let from = path[path.len() - 1].clone();
             let Some(cell) = self.guide.cell(leader.tip(&from)) else { return Ok(None) };
-            self.guide.repair(cell, leader.ledger.monitor)?;
+            self.guide.repair(cell, leader.budget.monitor)?;
             let left = self.guide.cost_to_go(cell);
             if left.is_infinite() {
                 return Err(PlanError::NotFound { step: leader.scene.grid().step() }.into());
@@ -210,15 +195,15 @@ impl Follower<'_> {
     }
 
     /// Certified turns from `from`, left out, until the tip is at `tip`.
-    fn led<M: Monitor>(
+    fn led(
         &self,
-        leader: &mut Leader<'_, M>,
+        leader: &mut Leader<'_>,
         from: &[f64],
         tip: Point,
         goal: &Option<Configuration>,
         share: f64,
         halvings: usize,
-    ) -> Result<Option<Vec<Configuration>>, Halt> {
+    ) -> Result<Option<Vec<Configuration>>, Exhausted> {
         // Drawn to where it has to be in the end, as far as the tip is led there.
         let towards = goal.as_ref().map(|goal| leader.scene.arm().nearest_turn(from, goal));
         let around: Configuration = towards.map_or_else(|| from.into(), |goal| lerp(from, &goal, share));
@@ -240,7 +225,7 @@ impl Follower<'_> {
     }
 
     /// The nearest configuration of the goal, for arms that have to be drawn to it.
-    fn nearest_end<M: Monitor>(&self, leader: &Leader<'_, M>, from: &[f64]) -> Option<Configuration> {
+    fn nearest_end(&self, leader: &Leader<'_>, from: &[f64]) -> Option<Configuration> {
         match self.target {
             Target::Configurations(goals) if from.len() > 2 => {
                 self.by_distance(leader, from, goals).into_iter().next()
@@ -249,19 +234,14 @@ impl Follower<'_> {
         }
     }
 
-    fn by_distance<M: Monitor>(
-        &self,
-        leader: &Leader<'_, M>,
-        from: &[f64],
-        goals: &[Configuration],
-    ) -> Vec<Configuration> {
+    fn by_distance(&self, leader: &Leader<'_>, from: &[f64], goals: &[Configuration]) -> Vec<Configuration> {
         let mut goals: Vec<Configuration> =
             goals.iter().map(|goal| leader.scene.arm().nearest_turn(from, goal)).collect();
         goals.sort_by(|a, b| joint_distance(from, a).total_cmp(&joint_distance(from, b)));
         goals
     }
 
-    fn is_near<M: Monitor>(&self, leader: &Leader<'_, M>, from: &[f64], reach: f64) -> bool {
+    fn is_near(&self, leader: &Leader<'_>, from: &[f64], reach: f64) -> bool {
         let tip = leader.tip(from);
         let is_near = |goal: Point| goal.distance(tip) <= NEAR * STRIDE * reach;
         match self.target {
@@ -271,11 +251,7 @@ impl Follower<'_> {
     }
 
     /// The last turns to the goal, where they are certified.
-    fn finish<M: Monitor>(
-        &self,
-        leader: &mut Leader<'_, M>,
-        from: &[f64],
-    ) -> Result<Option<Vec<Configuration>>, Halt> {
+    fn finish(&self, leader: &mut Leader<'_>, from: &[f64]) -> Result<Option<Vec<Configuration>>, Exhausted> {
         match self.target {
             Target::Tip(tip) => Ok(leader.by_least_squares(from, from, tip)?.map(|q| vec![q])),
             Target::Configurations(goals) => {

@@ -1,173 +1,108 @@
-//! Paths that leave the grid of the tip: the shortest over what is surely free of the plane of both joints, pulled
-//! taut; and paths of the grid, pulled taut in the plane of the tip.
+use std::ops::RangeInclusive;
 
-use super::bound::measure_of;
-use super::chart::{JointChart, Walls, sheet_ranges};
-use super::endpoints::Endpoints;
-use super::pairs::joint_path;
-use super::pull::{Plane, Pull};
-use super::settings::Objective;
-use super::{Monitor, PlanError, Stage};
-use crate::arm::joint_distance;
-use crate::geometry::Point;
-use crate::path::{JointPath, straight_move_is_free};
+use super::off_grid::{Search, over_joints, over_tips};
+use super::over_grid::{Choice, GRID_TOLERANCE, paths_over_grid};
+use crate::path::JointPath;
+use crate::planning::{Candidate, CertifiedPath, Found, Objective, Pick, PlanError, Planner, Problem, Round};
 use crate::scene::TwoLinkScene;
-use crate::surface::{Measure, SurfacePlace, TautPath, taut_path};
-use crate::trajectory::SpeedLimits;
-use crate::verify::images;
 
-/// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
-const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
+/// How far a motion may stray from a taut path before the verifier is asked, in grid steps: it has no zigzag to lose.
+const TAUT_TOLERANCE: f64 = 0.1;
 
-/// The same where time counts: wide berths have soft bends.
-const MARGINS_FOR_TIME: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
+/// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
+/// more to prove than to look past.
+const WALLS_DEEPER: f64 = 2.0;
 
-/// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
-/// to be looked for, unless a gap is asked for.
-const NEAR_ENOUGH: f64 = 0.007;
+/// Walls of lower bounds stand this far inside the obstacles (rad), from round to round: twice as far as the free cells stay before
+/// them.
+const DISTANCES: [f64; 5] = [6e-3, 2e-3, 2e-4, 2e-5, 2e-6];
 
-/// Longest turn of a straight line of the tip, in grid steps.
-const TIP_TURN: f64 = 0.5;
+/// `optimal`: taut paths that leave the grid, with a lower bound, ever nearer to the obstacles until the gap between both is as
+/// small as was asked for; for arms of two links.
+///
+/// # Reference
+/// Exact shortest paths over a cell decomposition of the configuration space, and over the tip's plane: docs/planners/optimal.md.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct OptimalPlanner;
 
-/// Two turns one after the other are one where the place between them is this near to the straight one (rad).
-const STRAIGHT: f64 = 1e-9;
+impl Planner for OptimalPlanner {
+    fn name(&self) -> &str {
+        "optimal"
+    }
 
-/// How closely paths over the joints are looked for.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Search {
-    /// How far they stay away from what is forbidden (rad).
-    pub(crate) distance: f64,
-    /// Joint travel (rad) with which no other path is looked for.
-    pub(crate) enough: Option<f64>,
-}
+    fn links(&self) -> RangeInclusive<usize> {
+        2..=2
+    }
 
-impl Search {
-    /// Paths `distance` (rad) away; with a lower bound of joint travel (rad) one that comes near to it is enough.
-    pub(crate) fn new(distance: f64, bound: Option<f64>) -> Self {
-        Self { distance, enough: bound.map(|bound| (1.0 + NEAR_ENOUGH) * bound) }
+    fn rounds(&self) -> &[f64] {
+        &DISTANCES
+    }
+
+    /// Paths over the joints or, for tip travel, over the tip; for time what D* finds as well, which may have fewer corners to
+    /// slow down at.
+    fn search(&self, problem: &Problem<'_>, round: Round) -> Result<Found, PlanError> {
+        let scene = problem.two_link(self.name())?;
+        let (objective, limits) = (problem.settings.objective, &problem.limits);
+        // Whoever asks for a gap wants the best of several.
+        let near = match (objective, problem.settings.gap) {
+            (Objective::Joint, None) => round.lower_bound,
+            _ => None,
+        };
+        let search = Search::new(round.distance / WALLS_DEEPER, near);
+        let over_joints =
+            || over_joints(scene, &problem.endpoints, objective, limits, search, problem.monitor);
+        let taut = |path| candidate(scene, path, TAUT_TOLERANCE);
+        let candidates = match objective {
+            Objective::Joint => over_joints()?.into_iter().map(taut).collect(),
+            Objective::Time => {
+                let mut candidates = self.on_grid(problem)?.candidates;
+                match over_joints() {
+                    // Corners cost time: they are kept to closely, and loosely.
+                    Ok(more) => candidates.extend(
+                        more.into_iter()
+                            .flat_map(|path| [candidate(scene, path.clone(), GRID_TOLERANCE), taut(path)]),
+                    ),
+                    Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
+                    Err(other) => return Err(other),
+                }
+                candidates
+            }
+            Objective::Tip => {
+                let mut rough: Vec<JointPath> = paths(self.on_grid(problem)?.candidates);
+                if rough.is_empty() {
+                    rough = over_joints()?;
+                }
+                let mut candidates = Vec::new();
+                for path in &rough {
+                    candidates.extend(over_tips(scene, path, problem.monitor)?.into_iter().map(taut));
+                }
+                candidates
+            }
+        };
+        Ok(Found::new(candidates, Pick::Best))
     }
 }
 
-/// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with
-/// each joint at its greatest speed.
-pub(crate) fn over_joints(
-    scene: TwoLinkScene<'_>,
-    ends: &Endpoints,
-    objective: Objective,
-    limits: &[SpeedLimits],
-    search: Search,
-    monitor: &impl Monitor,
-) -> Result<Vec<JointPath>, PlanError> {
-    let Search { distance, enough } = search;
-    let weights = match objective {
-        Objective::Tip | Objective::Joint => [1.0; 2],
-        Objective::Time => [0, 1].map(|j| 1.0 / limits[j].velocity),
+impl OptimalPlanner {
+    /// D*'s own paths; none where the grid does not connect start and goal.
+    fn on_grid(&self, problem: &Problem<'_>) -> Result<Found, PlanError> {
+        match paths_over_grid(problem, self.name(), Choice::OwnOnly) {
+            Err(PlanError::NotFound { .. }) => Ok(Found::new(Vec::new(), Pick::Best)),
+            other => other,
+        }
+    }
+}
+
+fn paths(candidates: Vec<Candidate>) -> Vec<JointPath> {
+    let path = |candidate| match candidate {
+        Candidate::Path { path, .. } => Some(path.path().clone()),
+        Candidate::Motion(_) => None,
     };
-    let measure = measure_of(objective, limits);
-    let mut found: Vec<JointPath> = Vec::new();
-    let margins: &[f64] = if objective == Objective::Time { &MARGINS_FOR_TIME } else { &MARGINS };
-    for &margin in margins {
-        monitor.stage(Stage::CostToGo);
-        let Some(path) = shortest(scene, ends, measure, margin, distance, monitor)? else { continue };
-        monitor.stage(Stage::JointPath);
-        let pull = Pull { scene, plane: Plane::Joints(weights), margin };
-        let thinned = pull.thinned(&path);
-        if enough.is_some_and(|enough| thinned.length() <= enough) {
-            return Ok(vec![thinned]);
-        }
-        let taut = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
-        for path in [thinned, taut] {
-            if !found.contains(&path) {
-                found.push(path);
-            }
-        }
-    }
-    if found.is_empty() {
-        return Err(PlanError::NotFoundOverJoints { distance });
-    }
-    Ok(found)
+    candidates.into_iter().filter_map(path).collect()
 }
 
-/// `path`, a certified one, pulled taut in the plane of the tip.
-pub(crate) fn over_tips(
-    scene: TwoLinkScene<'_>,
-    path: &JointPath,
-    monitor: &impl Monitor,
-) -> Result<Vec<JointPath>, PlanError> {
-    monitor.stage(Stage::JointPath);
-    let mut found: Vec<JointPath> = Vec::new();
-    for margin in MARGINS {
-        let pull = Pull { scene, plane: Plane::Tip(TIP_TURN * scene.grid().step()), margin };
-        let path = pull.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
-        if !found.contains(&path) {
-            found.push(path);
-        }
-    }
-    Ok(found)
-}
-
-/// The shortest way over cells that are free with `margin` (m) to spare, certified; `None` if they do not connect
-/// starts and goals, or a turn is not free after all.
-fn shortest(
-    scene: TwoLinkScene<'_>,
-    ends: &Endpoints,
-    measure: Measure,
-    margin: f64,
-    distance: f64,
-    monitor: &impl Monitor,
-) -> Result<Option<JointPath>, PlanError> {
-    let keep_going = || monitor.keep_going();
-    let walls = Walls { inside: false, distance };
-    let mut best: Option<(f64, JointPath)> = None;
-    let [starts, goals] = ends.pairs();
-    for range in sheet_ranges(scene, &starts, ends.keep_posture) {
-        let chart = JointChart::new(scene, margin, range, walls, &keep_going).ok_or(PlanError::Stopped)?;
-        let places = |pairs: &[[f64; 2]]| -> Vec<([f64; 2], SurfacePlace)> {
-            pairs.iter().filter_map(|q| Some((*q, chart.place(q)?))).collect()
-        };
-        let (starts, goals) = (places(&starts), places(&goals));
-        let [from, to] =
-            [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
-        let at_goals: Vec<Point> = to.iter().map(|place| place.point).collect();
-        let images = images(scene, &chart.sewn.surface, &at_goals);
-        let Some(path) = taut_path(&chart.sewn.surface, &from, &to, measure, &images, &keep_going) else {
-            if !keep_going() {
-                return Err(PlanError::Stopped);
-            }
-            continue;
-        };
-        if best.as_ref().is_none_or(|(cost, _)| path.cost < *cost) {
-            best = along(&path, &starts).map(|joints| (path.cost, joints)).or(best);
-        }
-    }
-    Ok(best.map(|(_, path)| path).filter(|path| {
-        path.0.windows(2).all(|pair| keep_going() && straight_move_is_free(scene.scene(), &pair[0], &pair[1]))
-    }))
-}
-
-/// `path` in configurations, from the start it begins at; turns of continuous joints are counted.
-fn along(path: &TautPath, starts: &[([f64; 2], SurfacePlace)]) -> Option<JointPath> {
-    let first = path.places.first()?;
-    let (start, place) = starts.iter().find(|(_, place)| place == first)?;
-    let turned = [start[0] - place.point.x, start[1] - place.point.y];
-    let mut places: Vec<[f64; 2]> = vec![*start];
-    for (place, shift) in path.places.iter().zip(&path.shifts).skip(1) {
-        let to = [place.point.x - shift.x + turned[0], place.point.y - shift.y + turned[1]];
-        if let [.., before, last] = places.as_slice()
-            && is_straight(before, last, &to)
-        {
-            places.pop();
-        }
-        if places.last().is_none_or(|last| joint_distance(last, &to) > STRAIGHT) {
-            places.push(to);
-        }
-    }
-    (places.len() > 1).then(|| joint_path(&places))
-}
-
-/// Whether `middle` lies on the straight turn from `from` to `to`, nearly.
-fn is_straight(from: &[f64; 2], middle: &[f64; 2], to: &[f64; 2]) -> bool {
-    let [a, b] = [0, 1].map(|j| middle[j] - from[j]);
-    let [c, d] = [0, 1].map(|j| to[j] - from[j]);
-    (a * d - b * c).abs() <= STRAIGHT * c.hypot(d) && a * c + b * d >= 0.0
+/// A motion along `path`, or the path itself, with stops, where that costs less.
+fn candidate(scene: TwoLinkScene<'_>, path: JointPath, tolerance: f64) -> Candidate {
+    let tip_travel = path.tip_travel(scene.scene().arm());
+    Candidate::Path { path: CertifiedPath::as_found(path), tip_travel, tolerance, may_stop: true }
 }

@@ -4,11 +4,11 @@
 use thiserror::Error;
 
 use super::union_graph::UnionGraph;
-use super::{Monitor, Stage};
 use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
+use crate::planning::{Monitor, Stage, standing_still};
 use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
 use crate::search::{Dstar, GoalError, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmError, GuidedSwarmSettings, Terrain, draw_paths};
@@ -72,7 +72,7 @@ pub struct PaperPlan {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PaperError {
     /// An obstacle of the scene moves.
-    #[error("{}", super::plan::standing_still(*obstacle, name.as_deref()))]
+    #[error("{}", standing_still(*obstacle, name.as_deref()))]
     Moving {
         /// Its number, from 0.
         obstacle: usize,
@@ -131,7 +131,7 @@ pub fn plan_as_in_paper(
     scene: &Scene,
     task: &Task,
     settings: &PaperSettings,
-    monitor: &impl Monitor,
+    monitor: &dyn Monitor,
 ) -> Result<PaperPlan, PaperError> {
     let scene = scene.two_link().map_err(|error| match error {
         TwoLinkError::Moving { obstacle, name } => PaperError::Moving { obstacle, name },

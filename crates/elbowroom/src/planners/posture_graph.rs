@@ -1,9 +1,9 @@
-use super::pairs::joint_path;
 use super::sheets::{Edge, Kept, Record, Sheets, direct, to_edge};
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::path::{JointPath, motion_bounds_of_two, straight_move_clears, straight_move_is_free};
+use crate::planning::joint_path;
 use crate::scene::TwoLinkScene;
 use crate::search::Graph;
 

@@ -1,9 +1,9 @@
 //! Pulls a certified path taut: corners are left out and cut for as long as what remains is certified.
 
-use super::pairs::{joint_path, pairs};
 use super::sheets::direct;
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::path::{JointPath, straight_move_keeps};
+use crate::planning::{joint_path, pairs};
 use crate::scene::TwoLinkScene;
 
 /// Rounds of leaving out and cutting; the gain falls by about half with each.

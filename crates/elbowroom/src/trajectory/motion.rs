@@ -116,6 +116,15 @@ impl Motion {
         self.end() - self.start()
     }
 
+    /// Positions (rad) at the start and at `count` even instants of each piece, its end the last.
+    pub(crate) fn instants(&self, count: usize) -> Vec<Vec<f64>> {
+        let first = self.at(self.start()).position;
+        let rest = self.pieces.iter().flat_map(|piece| {
+            (1..=count).map(|i| piece.at(piece.duration * i as f64 / count as f64).position)
+        });
+        std::iter::once(first).chain(rest).collect()
+    }
+
     /// What is left of the motion from time `t` (s) on; `None` if that is its end or later.
     #[must_use]
     pub fn after(&self, t: f64) -> Option<Self> {

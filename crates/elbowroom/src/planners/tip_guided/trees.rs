@@ -5,11 +5,9 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use super::guide::Guide;
 use super::lead::Leader;
-use super::ledger::Halt;
 use crate::arm::{Arm, Configuration, lerp};
 use crate::geometry::Point;
-use crate::planners::Monitor;
-use crate::planners::endpoints::Endpoints;
+use crate::planning::{Endpoints, Exhausted};
 
 /// How far the tip is led in one step at first, as a share of the reach; where that fails, half as far, and so on.
 const STRIDE: f64 = 0.08;
@@ -82,11 +80,8 @@ impl<'a> Trees<'a> {
     /// A path from a start to a goal, whose straight turns are certified.
     ///
     /// # Errors
-    /// [`Halt`]
-    pub(in crate::planners) fn path<M: Monitor>(
-        &self,
-        leader: &mut Leader<'_, M>,
-    ) -> Result<Vec<Configuration>, Halt> {
+    /// [`Exhausted`]
+    pub(in crate::planners) fn path(&self, leader: &mut Leader<'_>) -> Result<Vec<Configuration>, Exhausted> {
         let [mut from_starts, mut from_goals] = [0, 1].map(|side| Tree {
             nodes: Vec::new(),
             by_cell: BTreeMap::new(),
@@ -124,7 +119,7 @@ impl<'a> Trees<'a> {
                 return Ok(joined(a.0.trace(a.1), b.0.trace(b.1)));
             }
         }
-        Err(Halt::Spent)
+        Err(Exhausted::Spent)
     }
 }
 
@@ -141,12 +136,12 @@ fn joined(mut to_meeting: Vec<Configuration>, mut from_goal: Vec<Configuration>)
 }
 
 impl Tree {
-    fn insert<M: Monitor>(
+    fn insert(
         &mut self,
-        leader: &mut Leader<'_, M>,
+        leader: &mut Leader<'_>,
         q: Configuration,
         parent: Option<usize>,
-    ) -> Result<Option<usize>, Halt> {
+    ) -> Result<Option<usize>, Exhausted> {
         let Some(cell) = self.guide.cell(leader.tip(&q)) else { return Ok(None) };
         let arm = leader.scene.arm();
         let there = self.by_cell.entry(cell).or_default();
@@ -160,9 +155,9 @@ impl Tree {
         Ok(Some(node))
     }
 
-    fn push<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, node: usize) -> Result<(), Halt> {
+    fn push(&mut self, leader: &mut Leader<'_>, node: usize) -> Result<(), Exhausted> {
         let Node { cell, tried, .. } = self.nodes[node];
-        self.guide.repair(cell, leader.ledger.monitor)?;
+        self.guide.repair(cell, leader.budget.monitor)?;
         let penalty = TRIED * STRIDE * leader.scene.arm().reach()[1] * tried as f64;
         let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * leader.unit());
         // Never negative, so that its bits sort as it does.
@@ -171,14 +166,14 @@ impl Tree {
     }
 
     /// Leads the most promising configuration along the guide; the guide is repaired where that fails.
-    fn follow<M: Monitor>(&mut self, leader: &mut Leader<'_, M>) -> Result<Option<usize>, Halt> {
+    fn follow(&mut self, leader: &mut Leader<'_>) -> Result<Option<usize>, Exhausted> {
         let Some(Reverse((_, node))) = self.queue.pop() else { return self.explore(leader) };
         let (from, cell, tried) = {
             let node = &mut self.nodes[node];
             node.tried += 1;
             (node.q.clone(), node.cell, node.tried)
         };
-        self.guide.repair(cell, leader.ledger.monitor)?;
+        self.guide.repair(cell, leader.budget.monitor)?;
         let reach = leader.scene.arm().reach()[1];
         let mut steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
         // After the first try, from elsewhere on the self-motion.
@@ -208,7 +203,7 @@ impl Tree {
     }
 
     /// Moves some configuration without the guide: the arm by itself with the tip where it is, or towards anywhere.
-    fn explore<M: Monitor>(&mut self, leader: &mut Leader<'_, M>) -> Result<Option<usize>, Halt> {
+    fn explore(&mut self, leader: &mut Leader<'_>) -> Result<Option<usize>, Exhausted> {
         if leader.unit() < 0.5 {
             let node = leader.below(self.nodes.len());
             let from = self.nodes[node].q.clone();
@@ -236,7 +231,7 @@ impl Tree {
     }
 
     /// Goes from the nearest configuration towards `q`, step by step; the one that is `q`, if it gets there.
-    fn connect<M: Monitor>(&mut self, leader: &mut Leader<'_, M>, q: &[f64]) -> Result<Option<usize>, Halt> {
+    fn connect(&mut self, leader: &mut Leader<'_>, q: &[f64]) -> Result<Option<usize>, Exhausted> {
         let Some((mut node, target)) = self.nearest(leader.scene.arm(), q) else { return Ok(None) };
         loop {
             let from = self.nodes[node].q.clone();
@@ -257,12 +252,12 @@ impl Tree {
     }
 
     /// The end of the path with the tip at `tip`, if that is near `node` and can be reached from it.
-    fn end_at<M: Monitor>(
+    fn end_at(
         &mut self,
-        leader: &mut Leader<'_, M>,
+        leader: &mut Leader<'_>,
         node: usize,
         tip: Point,
-    ) -> Result<Option<usize>, Halt> {
+    ) -> Result<Option<usize>, Exhausted> {
         let (from, cell) = (self.nodes[node].q.clone(), self.nodes[node].cell);
         let far = leader.tip(&from).distance(tip) > NEAR * STRIDE * leader.scene.arm().reach()[1];
         if far {

@@ -4,7 +4,6 @@
 mod guide;
 mod inverse_swarm;
 mod lead;
-mod ledger;
 mod shorten;
 mod trees;
 
@@ -12,6 +11,5 @@ pub use inverse_swarm::{InverseSwarmError, InverseSwarmSettings, Previous, Swarm
 
 pub(super) use guide::Guide;
 pub(super) use lead::Leader;
-pub(in crate::planners) use ledger::{Halt, Ledger};
 pub(super) use shorten::{price, shortened};
 pub(super) use trees::Trees;

@@ -5,12 +5,10 @@ use rand_core::{Rng, SeedableRng};
 
 use super::super::contacts::Contacts;
 use super::inverse_swarm::{InverseSwarmSettings, Previous, inverse_by_swarm};
-use super::ledger::{Halt, Ledger};
 use crate::arm::{Configuration, Posture, joint_distance};
 use crate::geometry::Point;
-use crate::path::straight_move_is_free;
-use crate::planners::Monitor;
-use crate::planners::endpoints::posture;
+use crate::path::{JointPath, straight_move_is_free};
+use crate::planning::{Budget, Candidate, CertifiedPath, Exhausted, Found, Pick};
 use crate::random::{below, unit};
 use crate::scene::Scene;
 
@@ -30,20 +28,29 @@ const SELF_STEP: f64 = 0.15;
 const SELF_STEPS: usize = 200;
 
 /// Leads an arm, and keeps account.
-pub(in crate::planners) struct Leader<'a, M> {
+pub(in crate::planners) struct Leader<'a> {
     pub(in crate::planners) scene: &'a Scene,
-    pub(in crate::planners) ledger: Ledger<'a, M>,
+    pub(in crate::planners) budget: Budget<'a>,
     contacts: Contacts<'a>,
     rng: ChaCha8Rng,
     /// The posture of an arm of two links that must not change.
     pub(in crate::planners) kept: Option<Posture>,
 }
 
-impl<'a, M: Monitor> Leader<'a, M> {
-    pub(in crate::planners) fn new(scene: &'a Scene, ledger: Ledger<'a, M>, seed: u64) -> Self {
+impl<'a> Leader<'a> {
+    pub(in crate::planners) fn new(scene: &'a Scene, budget: Budget<'a>, seed: u64) -> Self {
         let [_, reach] = scene.arm().reach();
         let contacts = Contacts::new(scene, MARGIN * reach);
-        Self { scene, ledger, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
+        Self { scene, budget, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
+    }
+
+    /// The cheapest of `paths`, each with its price, `most` of them: the first that is accepted will do.
+    pub(in crate::planners) fn found(self, mut paths: Vec<(f64, JointPath)>, most: usize) -> Found {
+        paths.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let chosen_from = paths.len();
+        let candidate = |(_, path)| Candidate::along(self.scene, CertifiedPath::as_found(path));
+        let candidates = paths.into_iter().take(most).map(candidate).collect();
+        Found { candidates, pick: Pick::First, chosen_from, effort: Some(self.budget.effort()) }
     }
 
     /// Where the tip is at `q`.
@@ -52,9 +59,9 @@ impl<'a, M: Monitor> Leader<'a, M> {
     }
 
     /// Whether the straight turn is certified, between the stops, and keeps the posture that has to be kept.
-    pub(in crate::planners) fn joins(&mut self, from: &[f64], to: &[f64]) -> Result<bool, Halt> {
-        self.ledger.spend(1)?;
-        let keeps = self.kept.is_none_or(|kept| posture(to).is_none_or(|posture| posture == kept))
+    pub(in crate::planners) fn joins(&mut self, from: &[f64], to: &[f64]) -> Result<bool, Exhausted> {
+        self.budget.spend(1)?;
+        let keeps = self.kept.is_none_or(|kept| Posture::at(to).is_none_or(|posture| posture == kept))
             && (self.kept.is_none() || (to[1] - from[1]).abs() < std::f64::consts::PI);
         Ok(keeps && self.scene.arm().within_limits(to) && straight_move_is_free(self.scene, from, to))
     }
@@ -66,8 +73,8 @@ impl<'a, M: Monitor> Leader<'a, M> {
         from: &[f64],
         near: &[f64],
         tip: Point,
-    ) -> Result<Option<Configuration>, Halt> {
-        self.ledger.spend(1)?;
+    ) -> Result<Option<Configuration>, Exhausted> {
+        self.budget.spend(1)?;
         match self.scene.arm().inverse_near(tip, near) {
             Some(q) if self.joins(from, &q)? => Ok(Some(q)),
             _ => Ok(None),
@@ -82,10 +89,10 @@ impl<'a, M: Monitor> Leader<'a, M> {
         tip: Point,
         radius: f64,
         [particles, iterations]: [usize; 2],
-    ) -> Result<Option<Configuration>, Halt> {
+    ) -> Result<Option<Configuration>, Exhausted> {
         let [_, reach] = self.scene.arm().reach();
         let most = particles * iterations;
-        self.ledger.spend(most)?;
+        self.budget.spend(most)?;
         let settings = InverseSwarmSettings { particles, iterations, tolerance: NEAR_ENOUGH * reach };
         let previous = Previous { q: around, radius, weight: NEARNESS * reach * reach };
         let seed = self.rng.next_u64();
@@ -93,10 +100,10 @@ impl<'a, M: Monitor> Leader<'a, M> {
         let mut in_contact = |q: &[f64]| contacts.violation(q);
         let found = inverse_by_swarm(self.scene.arm(), tip, Some(previous), &settings, seed, &mut in_contact);
         let Ok(found) = found else {
-            self.ledger.give_back(most);
+            self.budget.give_back(most);
             return Ok(None);
         };
-        self.ledger.give_back(most - found.evaluations);
+        self.budget.give_back(most - found.evaluations);
         self.by_least_squares(from, &found.q, tip)
     }
 
@@ -121,7 +128,7 @@ impl<'a, M: Monitor> Leader<'a, M> {
         &mut self,
         from: &[f64],
         to: &[f64],
-    ) -> Result<Option<Vec<Configuration>>, Halt> {
+    ) -> Result<Option<Vec<Configuration>>, Exhausted> {
         if self.joins(from, to)? {
             return Ok(Some(vec![to.into()]));
         }

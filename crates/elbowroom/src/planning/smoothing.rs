@@ -1,12 +1,11 @@
 //! From certified straight turns to a smooth motion that the verifier accepts.
 
-use super::settings::Pace;
-use super::{Monitor, PlanError};
+use super::{Mismatch, Monitor, Pace, PlanError};
 use crate::arm::Configuration;
 use crate::path::simplify;
 use crate::scene::Scene;
 use crate::trajectory::{
-    Motion, MotionError, SpeedLimits, Via, fastest_durations, quintic_through, rescaled, stretch,
+    Motion, MotionError, SpeedLimits, TICK, Via, fastest_durations, quintic_through, rescaled, stretch,
 };
 use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 
@@ -15,7 +14,7 @@ const ROUNDS: usize = 24;
 
 /// How a motion begins as.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Style {
+pub(super) enum Style {
     /// Through as few vias as keep elbow and tip this near to the path, in grid steps; more where the verifier refuses.
     Flowing {
         /// In grid steps.
@@ -27,17 +26,17 @@ pub(crate) enum Style {
 
 /// How a motion came to be.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Smoothed {
-    pub(crate) trajectory: Trajectory,
+pub(super) struct Smoothed {
+    pub(super) trajectory: Trajectory,
     /// Places of the path that the motion is led through, by their index.
-    pub(crate) vias: Vec<usize>,
+    pub(super) vias: Vec<usize>,
     /// How many of them, ends left out, it stops at.
-    pub(crate) stops: usize,
+    pub(super) stops: usize,
 }
 
 /// Why there is no motion along a certified path.
 #[derive(Debug)]
-pub(crate) enum SmoothError {
+pub(super) enum SmoothError {
     /// The monitor stopped it.
     Stopped,
     /// The duration asked for is shorter than the limits allow (s).
@@ -46,15 +45,21 @@ pub(crate) enum SmoothError {
     Motion(MotionError),
     /// Even straight turns from stop to stop are refused, which certified turns should not be.
     Refused(Box<Verdict>),
+    /// Even those change the posture (at this time, s), though it is to be kept.
+    PostureChanged { time: f64 },
 }
 
 impl SmoothError {
-    /// What it means for a plan at `pace`.
-    pub(crate) fn in_terms_of(self, pace: Pace) -> PlanError {
+    /// What it means for a plan of `planner` at `pace`.
+    pub(super) fn in_terms_of(self, planner: &str, pace: Pace) -> PlanError {
         match (self, pace) {
             (Self::TooFast { fastest }, Pace::Duration(duration)) => PlanError::TooFast { duration, fastest },
             (Self::Motion(error), _) => error.into(),
-            (Self::Refused(verdict), _) => PlanError::Refused(verdict),
+            (Self::Refused(verdict), _) => PlanError::Refused { planner: planner.to_owned(), verdict },
+            (Self::PostureChanged { time }, _) => PlanError::Mismatch {
+                planner: planner.to_owned(),
+                mismatch: Mismatch::PostureChanged { time },
+            },
             (Self::Stopped | Self::TooFast { .. }, _) => PlanError::Stopped,
         }
     }
@@ -62,16 +67,16 @@ impl SmoothError {
 
 /// A motion through places of a path, whose straight turns from place to place are certified free.
 ///
-/// Quintic pieces through few vias at first; where the verifier refuses a piece, places between its ends become
-/// vias too, and where none is left the piece is turned straight, from stop to stop.
-pub(crate) fn smooth(
+/// Quintic pieces through few vias at first; where the verifier refuses a piece, or it changes a posture that is to be kept,
+/// places between its ends become vias too, and where none is left the piece is turned straight, from stop to stop.
+pub(super) fn smooth(
     scene: &Scene,
     places: &[Configuration],
     limits: &[SpeedLimits],
     stated: &[SpeedLimits],
-    pace: Pace,
+    (pace, keep_posture): (Pace, bool),
     style: Style,
-    monitor: &impl Monitor,
+    monitor: &dyn Monitor,
 ) -> Result<Smoothed, SmoothError> {
     let (mut chosen, mut stops) = match style {
         Style::Flowing { tolerance } => {
@@ -90,16 +95,23 @@ pub(crate) fn smooth(
         let durations = durations_of(&vias, limits, stated, pace)?;
         let motion = Motion::new(quintic_through(&vias, &durations)).map_err(SmoothError::Motion)?;
         let keep_going = || monitor.keep_going();
-        let verdict = match Trajectory::certify_until(scene, motion, &VerifySettings::default(), &keep_going)
-        {
+        let certified = Trajectory::certify_until(scene, motion, &VerifySettings::default(), &keep_going);
+        let (times, why) = match certified {
             Ok(trajectory) => {
-                let inner = chosen.len().saturating_sub(1);
-                let stops = (1..inner).filter(|&k| stops[chosen[k]]).count();
-                return Ok(Smoothed { trajectory, vias: chosen, stops });
+                // A smooth motion may cut through full stretch where its path only comes near.
+                let changes = if keep_posture { &trajectory.verdict().posture_changes[..] } else { &[] };
+                let Some(&time) = changes.first() else {
+                    let inner = chosen.len().saturating_sub(1);
+                    let stops = (1..inner).filter(|&k| stops[chosen[k]]).count();
+                    return Ok(Smoothed { trajectory, vias: chosen, stops });
+                };
+                // One where two pieces meet may be either's.
+                let around = changes.iter().flat_map(|&time| [time - TICK / 2.0, time]);
+                (around.collect(), SmoothError::PostureChanged { time })
             }
-            Err(verdict) => verdict,
+            Err(verdict) => (times_of(&verdict)?, SmoothError::Refused(verdict)),
         };
-        let refused = refused_pieces(&verdict, &durations)?;
+        let refused = pieces_at(&times, &durations);
         let before = (chosen.len(), stops.iter().filter(|stop| **stop).count());
         for &piece in refused.iter().rev() {
             let (from, to) = (chosen[piece], chosen[piece + 1]);
@@ -111,7 +123,7 @@ pub(crate) fn smooth(
             }
         }
         if before == (chosen.len(), stops.iter().filter(|stop| **stop).count()) {
-            return Err(SmoothError::Refused(verdict));
+            return Err(why);
         }
     }
     Err(SmoothError::Stopped)
@@ -142,11 +154,16 @@ fn durations_of(
     Ok(durations.iter().map(|duration| duration * (asked / fastest)).collect())
 }
 
-/// The pieces that the verifier's complaints fall on, in order.
-fn refused_pieces(verdict: &Verdict, durations: &[f64]) -> Result<Vec<usize>, SmoothError> {
+/// When the verifier's complaints are (s).
+fn times_of(verdict: &Verdict) -> Result<Vec<f64>, SmoothError> {
     if verdict.violations.iter().any(|violation| matches!(violation, Violation::Stopped { .. })) {
         return Err(SmoothError::Stopped);
     }
+    Ok(verdict.violations.iter().map(Violation::time).collect())
+}
+
+/// The pieces that `times` (s) fall on, in order.
+fn pieces_at(times: &[f64], durations: &[f64]) -> Vec<usize> {
     let ends: Vec<f64> = durations
         .iter()
         .scan(0.0, |end, duration| {
@@ -155,8 +172,8 @@ fn refused_pieces(verdict: &Verdict, durations: &[f64]) -> Result<Vec<usize>, Sm
         })
         .collect();
     let at = |time: f64| ends.partition_point(|end| *end <= time).min(durations.len().saturating_sub(1));
-    let mut refused: Vec<usize> = verdict.violations.iter().map(|violation| at(violation.time())).collect();
-    refused.sort_unstable();
-    refused.dedup();
-    Ok(refused)
+    let mut pieces: Vec<usize> = times.iter().map(|&time| at(time)).collect();
+    pieces.sort_unstable();
+    pieces.dedup();
+    pieces
 }

@@ -1,18 +1,16 @@
-//! Certified paths that are worth being made into motions: those of the grid, by D* and the swarm, and those that leave it.
+//! Certified paths over the grid that are worth being made into motions: D*'s, and those that a swarm draws over its cost-to-go.
 
-use super::choose::shortlist;
-use super::endpoints::Endpoints;
-use super::optimal::{Search, over_joints, over_tips};
+use super::off_grid::{Search, over_joints};
 use super::posture_graph::PostureGraph;
-use super::settings::{Objective, PlanSettings};
-use super::{Effort, Monitor, PlanError, Stage};
+use super::shortlist::shortlist;
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::path::JointPath;
-use crate::scene::TwoLinkScene;
+use crate::planning::{
+    Candidate, CertifiedPath, Effort, Found, Objective, Pick, PlanError, Problem, Stage, least_cost,
+};
 use crate::search::{Dstar, Graph, Progress, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
-use crate::trajectory::SpeedLimits;
 
 /// Expansions of D* between two looks at the monitor: a few milliseconds.
 const EXPANSIONS_PER_LOOK: usize = 1_000;
@@ -24,40 +22,63 @@ pub const NEARLY_EQUAL: f64 = 0.01;
 const SHORTLIST: usize = 8;
 
 /// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
-pub(crate) const GRID_TOLERANCE: f64 = 1.0;
-
-/// The same for a taut path, which has no zigzag to lose.
-const TAUT_TOLERANCE: f64 = 0.1;
+pub(super) const GRID_TOLERANCE: f64 = 1.0;
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
-pub(crate) const SAME_COST: f64 = 1e-9;
+const SAME_COST: f64 = 1e-9;
 
-/// Certified paths, how many they were chosen from, and what a search by evaluations took.
-pub(crate) struct Found {
-    pub(crate) candidates: Vec<Candidate>,
-    pub(crate) paths: usize,
-    pub(crate) effort: Option<Effort>,
+/// How far inside the obstacles walls stand (rad), one after the other, where the grid connects nothing: until there is a path off
+/// the grid, or a proof that there is none.
+const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// Which paths over the grid are candidates.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Choice<'a> {
+    /// D*'s own.
+    OwnOnly,
+    /// Those, and the best that a swarm draws.
+    Drawn(&'a GuidedSwarmSettings),
 }
 
-/// A certified path to make a motion of.
-#[derive(Clone)]
-pub(crate) struct Candidate {
-    pub(crate) path: JointPath,
-    /// Its tip travel (m).
-    pub(crate) tip_travel: f64,
-    /// How far the motion may stray from it before the verifier is asked, in grid steps.
-    pub(crate) tolerance: f64,
+/// [`paths_over_grid`]; where there are none, a try to prove that there is no path at all.
+///
+/// # Errors
+/// [`PlanError::NoPath`] where that is proved, else [`PlanError::NotFound`]; [`PlanError::Stopped`]
+pub(super) fn over_grid(
+    problem: &Problem<'_>,
+    planner: &str,
+    choice: Choice<'_>,
+) -> Result<Found, PlanError> {
+    let not_found = match paths_over_grid(problem, planner, choice) {
+        Err(not_found @ PlanError::NotFound { .. }) => not_found,
+        other => return other,
+    };
+    let scene = problem.two_link(planner)?;
+    for distance in DISTANCES {
+        least_cost(problem, distance)?;
+        // Where there is a path off the grid nothing can be proved against one.
+        let search = Search::new(distance, None);
+        let (ends, limits) = (&problem.endpoints, &problem.limits);
+        match over_joints(scene, ends, Objective::Joint, limits, search, problem.monitor) {
+            Ok(_) => break,
+            Err(PlanError::NotFoundOverJoints { .. }) => {}
+            Err(other) => return Err(other),
+        }
+    }
+    Err(not_found)
 }
 
 /// D*'s own paths over places and postures, and of those that a swarm draws, if one shall, the ones that promise most.
-pub(crate) fn over_grid(
-    scene: TwoLinkScene<'_>,
-    ends: &Endpoints,
-    swarm: Option<&GuidedSwarmSettings>,
-    settings: &PlanSettings,
-    limits: &[SpeedLimits],
-    monitor: &impl Monitor,
+///
+/// # Errors
+/// [`PlanError::NotFound`], [`PlanError::Stopped`]
+pub(super) fn paths_over_grid(
+    problem: &Problem<'_>,
+    planner: &str,
+    choice: Choice<'_>,
 ) -> Result<Found, PlanError> {
+    let scene = problem.two_link(planner)?;
+    let Problem { endpoints: ends, settings, limits, monitor, .. } = problem;
     let not_found = || PlanError::NotFound { step: scene.grid().step() };
     monitor.stage(Stage::FreeSpace);
     let space = FreeSpace::of_until(scene, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
@@ -73,9 +94,7 @@ pub(crate) fn over_grid(
     }
     for &start in &starts {
         while field.expand(&graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
-            if !monitor.keep_going() {
-                return Err(PlanError::Stopped);
-            }
+            problem.go_on()?;
         }
     }
     let least = starts.iter().map(|&start| field.cost_to_go(start)).fold(f64::INFINITY, f64::min);
@@ -94,7 +113,7 @@ pub(crate) fn over_grid(
     let mut effort = None;
     for &start in worth_it {
         own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        if let Some(swarm) = swarm {
+        if let Choice::Drawn(swarm) = choice {
             let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
             let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
             let terrain = Terrain {
@@ -125,63 +144,10 @@ pub(crate) fn over_grid(
     // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
     let mut chosen = joined(own)?;
     chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SHORTLIST));
-    let candidate = |(tip_travel, path)| Candidate { path, tip_travel, tolerance: GRID_TOLERANCE };
-    Ok(Found { candidates: chosen.into_iter().map(candidate).collect(), paths, effort })
-}
-
-/// Paths that leave the grid: over the joints or, for tip travel, over the tip; for time what D* finds as well, which
-/// may have fewer corners to slow down at.
-pub(crate) fn off_grid(
-    scene: TwoLinkScene<'_>,
-    ends: &Endpoints,
-    objective: Objective,
-    limits: &[SpeedLimits],
-    search: Search,
-    monitor: &impl Monitor,
-) -> Result<Found, PlanError> {
-    let on_grid = || {
-        let settings = PlanSettings { objective, ..PlanSettings::default() };
-        match over_grid(scene, ends, None, &settings, limits, monitor) {
-            Ok(found) => Ok(found.candidates),
-            Err(PlanError::NotFound { .. }) => Ok(Vec::new()),
-            Err(other) => Err(other),
-        }
+    let candidate = |(tip_travel, path)| {
+        let path = CertifiedPath::as_found(path);
+        Candidate::Path { path, tip_travel, tolerance: GRID_TOLERANCE, may_stop: false }
     };
-    let over_joints = || -> Result<Vec<Candidate>, PlanError> {
-        let paths = over_joints(scene, ends, objective, limits, search, monitor)?;
-        Ok(paths.into_iter().map(|path| candidate(scene, path)).collect())
-    };
-    let candidates = match objective {
-        Objective::Joint => over_joints()?,
-        Objective::Time => {
-            let mut candidates = on_grid()?;
-            match over_joints() {
-                // Corners cost time: they are kept to closely, and loosely.
-                Ok(more) => candidates.extend(more.into_iter().flat_map(|candidate| {
-                    [Candidate { tolerance: GRID_TOLERANCE, ..candidate.clone() }, candidate]
-                })),
-                Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
-                Err(other) => return Err(other),
-            }
-            candidates
-        }
-        Objective::Tip => {
-            let mut rough = on_grid()?;
-            if rough.is_empty() {
-                rough = over_joints()?;
-            }
-            let mut candidates = Vec::new();
-            for Candidate { path, .. } in &rough {
-                let paths = over_tips(scene, path, monitor)?;
-                candidates.extend(paths.into_iter().map(|path| candidate(scene, path)));
-            }
-            candidates
-        }
-    };
-    let paths = candidates.len();
-    Ok(Found { candidates, paths, effort: None })
-}
-
-fn candidate(scene: TwoLinkScene<'_>, path: JointPath) -> Candidate {
-    Candidate { tip_travel: path.tip_travel(scene.scene().arm()), path, tolerance: TAUT_TOLERANCE }
+    let candidates = chosen.into_iter().map(candidate).collect();
+    Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })
 }

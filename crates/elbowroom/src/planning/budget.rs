@@ -1,56 +1,58 @@
 //! What a search has spent, and may spend.
 
-use crate::planners::{Effort, Monitor, PlanError};
+use super::{Effort, Monitor, PlanError};
 
 /// Evaluations between two looks at the monitor: a few milliseconds.
 const EVALUATIONS_PER_LOOK: usize = 200;
 
 /// Why a search ends before it has found.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::planners) enum Halt {
+pub enum Exhausted {
     /// The budget is spent.
     Spent,
     /// Something that no further search mends.
     Failed(PlanError),
 }
 
-impl From<PlanError> for Halt {
+impl From<PlanError> for Exhausted {
     fn from(error: PlanError) -> Self {
         Self::Failed(error)
     }
 }
 
 /// Counts evaluations, and asks the monitor every few of them.
-pub(in crate::planners) struct Ledger<'a, M> {
-    pub(in crate::planners) monitor: &'a M,
-    budget: usize,
+pub struct Budget<'a> {
+    /// Who is asked whether to go on.
+    pub monitor: &'a dyn Monitor,
+    limit: usize,
     made: usize,
     looked_at: usize,
     convergence: Vec<(usize, f64)>,
 }
 
-impl<'a, M: Monitor> Ledger<'a, M> {
-    pub(in crate::planners) fn new(budget: usize, monitor: &'a M) -> Self {
-        Self { monitor, budget, made: 0, looked_at: 0, convergence: Vec::new() }
+impl<'a> Budget<'a> {
+    /// Of `limit` evaluations.
+    pub fn new(limit: usize, monitor: &'a dyn Monitor) -> Self {
+        Self { monitor, limit, made: 0, looked_at: 0, convergence: Vec::new() }
     }
 
     /// How many evaluations were made.
-    pub(in crate::planners) fn made(&self) -> usize {
+    pub fn made(&self) -> usize {
         self.made
     }
 
     /// How many may still be made.
-    pub(in crate::planners) fn left(&self) -> usize {
-        self.budget - self.made
+    pub fn left(&self) -> usize {
+        self.limit - self.made
     }
 
     /// Enters `evaluations` that are about to be made.
     ///
     /// # Errors
-    /// [`Halt`] when there are not so many left, or the monitor says no; then none is entered.
-    pub(in crate::planners) fn spend(&mut self, evaluations: usize) -> Result<(), Halt> {
+    /// [`Exhausted`] when there are not so many left, or the monitor says no; then none is entered.
+    pub fn spend(&mut self, evaluations: usize) -> Result<(), Exhausted> {
         if evaluations > self.left() {
-            return Err(Halt::Spent);
+            return Err(Exhausted::Spent);
         }
         if self.made + evaluations >= self.looked_at + EVALUATIONS_PER_LOOK {
             self.looked_at = self.made + evaluations;
@@ -61,7 +63,7 @@ impl<'a, M: Monitor> Ledger<'a, M> {
     }
 
     /// Gives back what was entered and not made.
-    pub(in crate::planners) fn give_back(&mut self, evaluations: usize) {
+    pub fn give_back(&mut self, evaluations: usize) {
         self.made = self.made.saturating_sub(evaluations);
         self.looked_at = self.looked_at.min(self.made);
     }
@@ -70,19 +72,19 @@ impl<'a, M: Monitor> Ledger<'a, M> {
     ///
     /// # Errors
     /// [`PlanError::Stopped`]
-    pub(in crate::planners) fn look(&self) -> Result<(), PlanError> {
+    pub fn look(&self) -> Result<(), PlanError> {
         if self.monitor.keep_going() { Ok(()) } else { Err(PlanError::Stopped) }
     }
 
     /// Enters a feasible candidate of `cost`.
-    pub(in crate::planners) fn found(&mut self, cost: f64) {
+    pub fn found(&mut self, cost: f64) {
         if self.convergence.last().is_none_or(|(_, known)| cost < *known) {
             self.convergence.push((self.made, cost));
         }
     }
 
     /// The account.
-    pub(in crate::planners) fn effort(self) -> Effort {
+    pub fn effort(self) -> Effort {
         Effort { evaluations: self.made, convergence: self.convergence }
     }
 }

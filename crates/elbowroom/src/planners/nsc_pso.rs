@@ -3,18 +3,13 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::endpoints::Endpoints;
-use super::super::finish::along;
-use super::super::settings::PlanSettings;
-use super::super::{Monitor, Plan, PlanError, Stage};
-use super::choice::Choice;
-use super::hunt::{Hunt, Patience};
-use super::polyline::{certified, places};
-use super::track::Track;
+use super::swarms::{Choice, Hunt, MOST_EVALUATIONS, Patience, Track, certified, places};
 use crate::arm::Configuration;
 use crate::path::JointPath;
+use crate::planning::{
+    Candidate, CertifiedPath, Found, OptionValue, Pick, PlanError, Planner, Problem, Round, Stage,
+};
 use crate::random::unit;
-use crate::scene::Scene;
 use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
 
 /// Where the first particles are.
@@ -26,9 +21,18 @@ pub enum Initialisation {
     Uniform,
 }
 
-/// How a swarm looks for way-points.
+/// `nsc-pso`: a swarm whose particles are `waypoints` configurations, joined by straight moves, shaken at first where the straight
+/// way is bad.
+///
+/// A step's cost is how deep in contact the arm is there times the way of its points; divided by the greatest it tells how
+/// much noise a way-point starts with. The noise is smooth: it has the covariance (AᵀA)⁻¹ of STOMP, with A the matrix of
+/// second differences, and the same matrix smooths the velocities of all particles.
+///
+/// # Reference
+/// NSC-PSO-style: Kim and Lee, the eighth reference of the paper, whose formula of the normalised step cost is not known; the
+/// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NscPsoSettings {
+pub struct NscPsoPlanner {
     /// How many configurations lie between start and goal.
     pub waypoints: usize,
     /// Where the first particles are.
@@ -37,7 +41,7 @@ pub struct NscPsoSettings {
     pub evaluations: usize,
 }
 
-impl Default for NscPsoSettings {
+impl Default for NscPsoPlanner {
     fn default() -> Self {
         Self { waypoints: 12, initialisation: Initialisation::StepCost, evaluations: 40_000 }
     }
@@ -52,59 +56,86 @@ const SHAKE: f64 = 7.0;
 /// Part of the shaking that does not heed the step cost, so that a way that is free all along is varied too.
 const LEAST_SHAKE: f64 = 0.05;
 
-/// Plans by a swarm whose particles are `settings.waypoints` configurations, joined by straight turns.
-///
-/// A step's cost is how deep in contact the arm is there times the way of its points; divided by the greatest it tells how
-/// much noise a way-point starts with. The noise is smooth: it has the covariance (AᵀA)⁻¹ of STOMP, with A the matrix of
-/// second differences, and the same matrix smooths the velocities of all particles.
-///
-/// # Reference
-/// NSC-PSO-style: Kim and Lee, the eighth reference of the paper, whose formula of the normalised step cost is not known; the
-/// reconstruction is ours. Kalakrishnan et al., *STOMP*, ICRA 2011, for the noise.
-pub(in crate::planners) fn plan(
-    scene: &Scene,
-    ends: &Endpoints,
-    own: &NscPsoSettings,
-    settings: &PlanSettings,
-    monitor: &impl Monitor,
-) -> Result<Plan, PlanError> {
-    monitor.stage(Stage::JointPath);
-    let choice = Choice::new(scene.arm(), ends);
-    let track = Track::new(scene, settings.objective, ends.keep_posture);
-    let mut hunt: Hunt<'_, _, Vec<Configuration>> = Hunt::new(own.evaluations, monitor);
-    let bounds = choice.bounds(own.waypoints, &[]).map_err(PlanError::Bounds)?;
-    let swarm_settings = SwarmSettings {
-        iterations: ITERATIONS,
-        neighbourhood: Neighbourhood::Ring { k: 2 },
-        ..SwarmSettings::default()
-    };
-    let smoothing = Smoothing::new(own.waypoints);
-    let joints = choice.ranges().len();
-    let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-    while !hunt.is_over() {
-        let first = match own.initialisation {
-            Initialisation::StepCost => {
-                shaken(&choice, &track, own.waypoints, swarm_settings.particles, &mut rng)
-            }
-            Initialisation::Uniform => Vec::new(),
-        };
-        let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
-            .map_err(PlanError::Particles)?;
-        let mut patience = Patience::new();
-        while !hunt.is_over() && patience.lasts(swarm.best().1) {
-            let mut objective = |x: &[f64]| {
-                let places = places(x, &choice);
-                hunt.judge(
-                    || track.violation(&places),
-                    || track.cost(&places),
-                    || certified(scene, places.clone()),
-                )
-            };
-            swarm.step_shaped(&mut objective, &mut |velocity: &mut [f64]| smoothing.smooth(velocity, joints));
-        }
+impl Planner for NscPsoPlanner {
+    fn name(&self) -> &str {
+        "nsc-pso"
     }
-    let (places, effort) = hunt.end()?;
-    along(scene, JointPath(places), settings, effort, monitor)
+
+    fn options(&self) -> Vec<(&'static str, OptionValue)> {
+        let initialisation = match self.initialisation {
+            Initialisation::StepCost => "step-cost",
+            Initialisation::Uniform => "uniform",
+        };
+        vec![
+            ("waypoints", OptionValue::Count(self.waypoints)),
+            ("initialisation", OptionValue::word(initialisation)),
+            ("evaluations", OptionValue::Count(self.evaluations)),
+        ]
+    }
+
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+        match option {
+            "waypoints" => self.waypoints = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
+            "initialisation" => {
+                let words = [("step-cost", Initialisation::StepCost), ("uniform", Initialisation::Uniform)];
+                self.initialisation = value.one_of(&words).ok_or("step-cost or uniform")?;
+            }
+            _ => {
+                self.evaluations =
+                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?
+            }
+        }
+        Ok(())
+    }
+
+    fn budget(&self) -> Option<&'static str> {
+        Some("evaluations")
+    }
+
+    fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
+        let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
+        let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
+        monitor.stage(Stage::JointPath);
+        let choice = Choice::new(scene.arm(), ends);
+        let track = Track::new(scene, settings.objective, ends.keep_posture);
+        let mut hunt: Hunt<'_, Vec<Configuration>> = Hunt::new(self.evaluations, *monitor);
+        let bounds = choice.bounds(self.waypoints, &[]).map_err(|error| bad(error.to_string()))?;
+        let swarm_settings = SwarmSettings {
+            iterations: ITERATIONS,
+            neighbourhood: Neighbourhood::Ring { k: 2 },
+            ..SwarmSettings::default()
+        };
+        let smoothing = Smoothing::new(self.waypoints);
+        let joints = choice.ranges().len();
+        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+        while !hunt.is_over() {
+            let first = match self.initialisation {
+                Initialisation::StepCost => {
+                    shaken(&choice, &track, self.waypoints, swarm_settings.particles, &mut rng)
+                }
+                Initialisation::Uniform => Vec::new(),
+            };
+            let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
+                .map_err(|error| bad(error.to_string()))?;
+            let mut patience = Patience::new();
+            while !hunt.is_over() && patience.lasts(swarm.best().1) {
+                let mut objective = |x: &[f64]| {
+                    let places = places(x, &choice);
+                    hunt.judge(
+                        || track.violation(&places),
+                        || track.cost(&places),
+                        || certified(scene, places.clone()),
+                    )
+                };
+                swarm.step_shaped(&mut objective, &mut |velocity: &mut [f64]| {
+                    smoothing.smooth(velocity, joints)
+                });
+            }
+        }
+        let (places, effort) = hunt.end()?;
+        let path = CertifiedPath::as_found(JointPath(places));
+        Ok(Found::new(vec![Candidate::along(scene, path)], Pick::First).with_effort(effort))
+    }
 }
 
 /// Particles on straight ways, shaken where these are in contact.

@@ -1,20 +1,18 @@
 //! What no motion can cost less than, and tasks that no motion can do.
 
-use super::chart::{JointChart, Walls, sheet_ranges, tip_chart};
-use super::endpoints::Endpoints;
-use super::limits::{motion_limits, stated_limits};
-use super::settings::{Objective, Pace, PlanSettings};
-use super::{Monitor, NoPath, PlanError, Stage};
+use super::limits::stated_limits;
+use super::{Endpoints, Monitor, NoPath, Objective, Pace, PlanError, Problem, Stage};
 use crate::arm::JointLimits;
+use crate::decomposition::{JointChart, Walls, sheet_ranges, tip_chart};
 use crate::geometry::wrap_angle;
-use crate::scene::{Scene, TwoLinkScene};
+use crate::scene::TwoLinkScene;
 use crate::surface::{Measure, SurfacePlace};
 use crate::trajectory::SpeedLimits;
 use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What was proved of a task.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Proved {
+enum Proved {
     /// No motion does it.
     NoPath(NoPath),
     /// No motion costs less, in terms of the objective.
@@ -26,61 +24,41 @@ pub(crate) enum Proved {
 /// How far inside the obstacles walls are tried, one after the other, as shares of what was asked.
 const TRIED: [f64; 3] = [1.0, 0.3, 3.0];
 
-/// How far inside the obstacles the walls of a first bound stand (rad): one that costs a millisecond or two.
-pub(crate) const COARSE_DISTANCE: f64 = 1e-2;
-
-/// The least that any motion costs in terms of the settings' objective, with walls at `distance` (rad), if any was proved.
+/// The least that any motion of `problem` costs in terms of its objective, with walls at `distance` (rad); `None` where nothing
+/// was proved, and for arms of more links than two.
 ///
 /// # Errors
 /// [`PlanError::NoPath`], [`PlanError::Stopped`]
-pub(crate) fn least_cost(
-    scene: TwoLinkScene<'_>,
-    ends: &Endpoints,
-    settings: &PlanSettings,
-    distance: f64,
-    monitor: &impl Monitor,
-) -> Result<Option<f64>, PlanError> {
-    monitor.stage(Stage::Bound);
+pub(crate) fn least_cost(problem: &Problem<'_>, distance: f64) -> Result<Option<f64>, PlanError> {
+    let Ok(scene) = problem.scene.two_link() else { return Ok(None) };
+    problem.monitor.stage(Stage::Bound);
     // A duration that was asked for heeds only the limits that the scene states.
-    let limits = match settings.pace {
-        Pace::Fastest => motion_limits(scene.scene().arm()).0,
-        Pace::Duration(_) => stated_limits(scene.scene().arm()),
+    let stated;
+    let limits = match problem.settings.pace {
+        Pace::Fastest => &problem.limits,
+        Pace::Duration(_) => {
+            stated = stated_limits(problem.scene.arm());
+            &stated
+        }
     };
-    match prove(scene, ends, settings.objective, &limits, distance, monitor)? {
+    match prove(scene, &problem.endpoints, problem.settings.objective, limits, distance, problem.monitor)? {
         Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
         Proved::AtLeast(cost) => Ok(Some(cost)),
         Proved::Nothing => Ok(None),
     }
 }
 
-/// [`least_cost`] of a first bound for an arm of two links; `None` for any other.
-///
-/// # Errors
-/// As [`least_cost`]
-pub(crate) fn coarse_least_cost(
-    scene: &Scene,
-    ends: &Endpoints,
-    settings: &PlanSettings,
-    monitor: &impl Monitor,
-) -> Result<Option<f64>, PlanError> {
-    let Ok(scene) = scene.two_link() else { return Ok(None) };
-    if ends.already_there().is_some() {
-        return Ok(Some(0.0));
-    }
-    least_cost(scene, ends, settings, COARSE_DISTANCE, monitor)
-}
-
 /// What can be proved with walls about `distance` (rad) inside the obstacles.
 ///
 /// # Errors
 /// [`PlanError::Stopped`]
-pub(crate) fn prove(
+fn prove(
     scene: TwoLinkScene<'_>,
     ends: &Endpoints,
     objective: Objective,
     limits: &[SpeedLimits],
     distance: f64,
-    monitor: &impl Monitor,
+    monitor: &dyn Monitor,
 ) -> Result<Proved, PlanError> {
     let measure = measure_of(objective, limits);
     for share in TRIED {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use crate::arm::{Arm, JointLimits};
 use crate::geometry::{Point, Segment};
 use crate::grid::Grid;
-use crate::planners::{Monitor, PlanError};
+use crate::planning::{Monitor, PlanError};
 use crate::scene::Scene;
 use crate::search::{Dstar, Graph, Progress, Until};
 
@@ -66,7 +66,7 @@ impl Guide {
     pub(in crate::planners) fn new(
         scene: &Scene,
         goals: &[Point],
-        monitor: &impl Monitor,
+        monitor: &dyn Monitor,
     ) -> Result<Self, PlanError> {
         let cells = TipCells { grid: *scene.grid(), weight: weights(scene, monitor)? };
         let mut guide = Self { field: Dstar::new(cells.len()), cells };
@@ -116,7 +116,7 @@ impl Guide {
     pub(in crate::planners) fn repair(
         &mut self,
         cell: usize,
-        monitor: &impl Monitor,
+        monitor: &dyn Monitor,
     ) -> Result<(), PlanError> {
         while self.field.expand(&self.cells, Until::Settled(cell), EXPANSIONS_PER_LOOK) == Progress::Paused {
             if !monitor.keep_going() {
@@ -163,7 +163,7 @@ impl Guide {
 }
 
 /// What a metre costs in each cell.
-fn weights(scene: &Scene, monitor: &impl Monitor) -> Result<Vec<f64>, PlanError> {
+fn weights(scene: &Scene, monitor: &dyn Monitor) -> Result<Vec<f64>, PlanError> {
     let [nearest, farthest] = reach(scene.arm());
     let width = scene.arm().half_width();
     let shy = SHY * width.max(scene.grid().step());

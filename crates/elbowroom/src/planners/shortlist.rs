@@ -1,8 +1,8 @@
 //! Which of many paths are worth being made into motions.
 
-use super::settings::Objective;
 use crate::arm::Configuration;
 use crate::path::{JointPath, link_clearances, simplify};
+use crate::planning::Objective;
 use crate::scene::Scene;
 use crate::trajectory::{SpeedLimits, fastest_durations, vias_at};
 

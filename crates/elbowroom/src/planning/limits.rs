@@ -39,7 +39,7 @@ pub(crate) fn motion_limits(arm: &Arm) -> (Vec<SpeedLimits>, Vec<AssumedLimit>) 
 }
 
 /// The limits that the scene states; a rate without one may be as great as it likes.
-pub(crate) fn stated_limits(arm: &Arm) -> Vec<SpeedLimits> {
+pub(super) fn stated_limits(arm: &Arm) -> Vec<SpeedLimits> {
     let limit = |joint: &Joint| SpeedLimits {
         velocity: joint.motion.velocity.unwrap_or(f64::INFINITY),
         acceleration: joint.motion.acceleration.unwrap_or(f64::INFINITY),

@@ -1,12 +1,9 @@
 //! A certified path made cheaper: straight turns in place of detours.
 
 use super::lead::Leader;
-use super::ledger::Halt;
 use crate::arm::{Arm, Configuration, joint_distance};
 use crate::path::{JointPath, simplify};
-use crate::planners::Monitor;
-use crate::planners::limits::motion_limits;
-use crate::planners::settings::Objective;
+use crate::planning::{Exhausted, Objective, motion_limits};
 use crate::trajectory::{fastest_durations, vias_at};
 
 /// Shortcuts tried for each path.
@@ -46,12 +43,12 @@ fn weight(arm: &Arm, objective: Objective, places: &[Configuration]) -> f64 {
 /// `path` with straight turns, certified, in place of stretches that weigh more; it ends early where the budget does.
 ///
 /// # Errors
-/// [`Halt::Failed`]
-pub(in crate::planners) fn shortened<M: Monitor>(
-    leader: &mut Leader<'_, M>,
+/// [`Exhausted::Failed`]
+pub(in crate::planners) fn shortened(
+    leader: &mut Leader<'_>,
     mut path: Vec<Configuration>,
     objective: Objective,
-) -> Result<JointPath, Halt> {
+) -> Result<JointPath, Exhausted> {
     let arm = leader.scene.arm();
     let mut idle = 0;
     for _ in 0..TRIES {
@@ -78,7 +75,7 @@ pub(in crate::planners) fn shortened<M: Monitor>(
                 idle = 0;
             }
             Ok(false) => {}
-            Err(Halt::Spent) => break,
+            Err(Exhausted::Spent) => break,
             Err(halt) => return Err(halt),
         }
     }

@@ -3,31 +3,34 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::endpoints::Endpoints;
-use super::super::finish::with_motion;
-use super::super::settings::{Objective, Pace, PlanSettings};
-use super::super::{Monitor, Plan, PlanError, Stage};
-use super::choice::Choice;
-use super::hunt::{Hunt, Patience};
-use super::polyline::around_straight;
-use super::track::Track;
+use super::swarms::{Choice, Hunt, MOST_EVALUATIONS, Patience, Track, around_straight};
 use crate::arm::{Configuration, joint_distance};
-use crate::path::{JointPath, straight_move_is_free};
+use crate::planning::{
+    Candidate, Found, Monitor, Objective, OptionValue, Pace, Pick, PlanError, Planner, Problem, Round, Stage,
+};
 use crate::scene::Scene;
 use crate::swarm::{CulturalSettings, CulturalSwarm, Fitness, SwarmSettings};
 use crate::trajectory::{Motion, Piece, SpeedLimits, TICK, quartic, quintic, stretch};
 use crate::verify::{Trajectory, VerifySettings};
 
-/// How a cultural swarm looks for a motion.
+/// `cbpso`: a cultural swarm whose particles are via configurations, the velocities there, and durations: all pieces but
+/// the last are polynomials of degree four, the last is a quintic, and acceleration is continuous throughout.
+///
+/// The motion is scaled to be as fast as the motion limits allow, or to the duration asked for, and goes before the
+/// verifier as it is.
+///
+/// # Reference
+/// CBPSO-style: Guo et al., the sixth reference of the paper, of whom only the cultural swarm over quartic and quintic pieces in
+/// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CbpsoSettings {
+pub struct CbpsoPlanner {
     /// How many configurations the motion is led through.
     pub vias: usize,
     /// How many candidates may be judged.
     pub evaluations: usize,
 }
 
-impl Default for CbpsoSettings {
+impl Default for CbpsoPlanner {
     fn default() -> Self {
         Self { vias: 2, evaluations: 20_000 }
     }
@@ -45,62 +48,71 @@ const FASTEST: f64 = 1.0;
 /// Looks at one piece.
 const LOOKS: usize = 24;
 
-/// The most places of a path along one piece.
-const DENSEST: usize = 3072;
-
 /// Rounds of lengthening a motion whose pieces were rounded to whole ticks.
 const ROUNDS: usize = 6;
 
-/// Plans by a cultural swarm whose particles are via configurations, the velocities there, and durations: all pieces but
-/// the last are polynomials of degree four, the last is a quintic, and acceleration is continuous throughout.
-///
-/// The motion is scaled to be as fast as the motion limits allow, or to the duration asked for, and goes before the
-/// verifier as it is.
-///
-/// # Reference
-/// CBPSO-style: Guo et al., the sixth reference of the paper, of whom only the cultural swarm over quartic and quintic pieces in
-/// joint space is known; encoding and equations are our reconstruction, after Tian and Collins (2004).
-pub(in crate::planners) fn plan(
-    scene: &Scene,
-    ends: &Endpoints,
-    own: &CbpsoSettings,
-    settings: &PlanSettings,
-    monitor: &impl Monitor,
-) -> Result<Plan, PlanError> {
-    monitor.stage(Stage::JointPath);
-    let choice = Choice::new(scene.arm(), ends);
-    let track = Track::new(scene, settings.objective, ends.keep_posture);
-    let shape = Shape { choice: &choice, vias: own.vias, limits: track.limits(), pace: settings.pace };
-    let mut hunt = Hunt::new(own.evaluations, monitor);
-    let bounds = choice.bounds(own.vias, &shape.rates()).map_err(PlanError::Bounds)?;
-    let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
-    let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
-    let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-    while !hunt.is_over() {
-        let first: Vec<Vec<f64>> = around_straight(&choice, own.vias, cultural.swarm.particles / 2, &mut rng)
-            .into_iter()
-            .map(|position| shape.with_even_rates(&position))
-            .collect();
-        let mut swarm = CulturalSwarm::<Fitness>::starting_at(&bounds, &cultural, &first, rng.next_u64())
-            .map_err(PlanError::Culture)?;
-        let mut patience = Patience::new();
-        while !hunt.is_over() && patience.lasts(swarm.best().1) {
-            swarm.step(&mut |x: &[f64]| {
-                let Some(motion) = shape.motion(x) else {
-                    return hunt.judge(|| f64::MAX, || 0.0, || None);
-                };
-                let looks = instants(&motion, LOOKS);
-                hunt.judge(
-                    || violation(&track, &motion, &looks),
-                    || cost(scene, settings.objective, &motion, &looks),
-                    || is_safe(scene, &motion, monitor).then(|| motion.clone()),
-                )
-            });
-        }
+impl Planner for CbpsoPlanner {
+    fn name(&self) -> &str {
+        "cbpso"
     }
-    let (motion, effort) = hunt.end()?;
-    let (path, vias) = followed(scene, &motion);
-    with_motion(scene, motion, path, vias, settings, effort, monitor)
+
+    fn options(&self) -> Vec<(&'static str, OptionValue)> {
+        vec![("vias", OptionValue::Count(self.vias)), ("evaluations", OptionValue::Count(self.evaluations))]
+    }
+
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+        match option {
+            "vias" => self.vias = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
+            _ => {
+                self.evaluations =
+                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?
+            }
+        }
+        Ok(())
+    }
+
+    fn budget(&self) -> Option<&'static str> {
+        Some("evaluations")
+    }
+
+    fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
+        let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
+        let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
+        monitor.stage(Stage::JointPath);
+        let choice = Choice::new(scene.arm(), ends);
+        let track = Track::new(scene, settings.objective, ends.keep_posture);
+        let shape = Shape { choice: &choice, vias: self.vias, limits: track.limits(), pace: settings.pace };
+        let mut hunt = Hunt::new(self.evaluations, *monitor);
+        let bounds = choice.bounds(self.vias, &shape.rates()).map_err(|error| bad(error.to_string()))?;
+        let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
+        let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
+        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
+        while !hunt.is_over() {
+            let first: Vec<Vec<f64>> =
+                around_straight(&choice, self.vias, cultural.swarm.particles / 2, &mut rng)
+                    .into_iter()
+                    .map(|position| shape.with_even_rates(&position))
+                    .collect();
+            let mut swarm = CulturalSwarm::<Fitness>::starting_at(&bounds, &cultural, &first, rng.next_u64())
+                .map_err(|error| bad(error.to_string()))?;
+            let mut patience = Patience::new();
+            while !hunt.is_over() && patience.lasts(swarm.best().1) {
+                swarm.step(&mut |x: &[f64]| {
+                    let Some(motion) = shape.motion(x) else {
+                        return hunt.judge(|| f64::MAX, || 0.0, || None);
+                    };
+                    let looks = motion.instants(LOOKS);
+                    hunt.judge(
+                        || violation(&track, &motion, &looks),
+                        || cost(scene, settings.objective, &motion, &looks),
+                        || is_safe(scene, &motion, *monitor).then(|| motion.clone()),
+                    )
+                });
+            }
+        }
+        let (motion, effort) = hunt.end()?;
+        Ok(Found::new(vec![Candidate::Motion(motion)], Pick::First).with_effort(effort))
+    }
 }
 
 /// What a particle's coordinates stand for: via configurations, velocities there, durations, and the choice of ends.
@@ -230,30 +242,6 @@ fn on_ticks(durations: &[f64], factor: f64, total: Option<f64>) -> Vec<f64> {
     rounded
 }
 
-/// Configurations at `count` even instants of each piece, and the first of all.
-fn instants(motion: &Motion, count: usize) -> Vec<Vec<f64>> {
-    let first = motion.at(motion.start()).position;
-    let rest = motion
-        .pieces()
-        .iter()
-        .flat_map(|piece| (1..=count).map(|i| piece.at(piece.duration * i as f64 / count as f64).position));
-    std::iter::once(first).chain(rest).collect()
-}
-
-/// A path along the motion, dense enough for its straight turns to be certified, and its places where pieces meet.
-fn followed(scene: &Scene, motion: &Motion) -> (JointPath, Vec<usize>) {
-    let mut count = LOOKS;
-    loop {
-        let places = instants(motion, count);
-        let certified = places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1]));
-        if certified || count >= DENSEST {
-            let vias = (0..=motion.pieces().len()).map(|i| i * count).collect();
-            return (JointPath(places.into_iter().map(Configuration::from).collect()), vias);
-        }
-        count *= 2;
-    }
-}
-
 fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
     let start = motion.at(motion.start()).position;
     let mut watch = track.watch(&start);
@@ -275,7 +263,7 @@ fn cost(scene: &Scene, objective: Objective, motion: &Motion, looks: &[Vec<f64>]
     }
 }
 
-fn is_safe(scene: &Scene, motion: &Motion, monitor: &impl Monitor) -> bool {
+fn is_safe(scene: &Scene, motion: &Motion, monitor: &dyn Monitor) -> bool {
     let keep_going = || monitor.keep_going();
     Trajectory::certify_until(scene, motion.clone(), &VerifySettings::default(), &keep_going).is_ok()
 }

@@ -1,0 +1,180 @@
+//! From what a planner found, paths or motions, to one that is accepted.
+
+use super::limits::stated_limits;
+use super::smoothing::{SmoothError, Smoothed, Style, smooth};
+use super::{
+    Candidate, END_ROUNDING, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
+    mismatch,
+};
+use crate::arm::Configuration;
+use crate::path::{JointPath, straight_move_is_free};
+use crate::scene::Scene;
+use crate::trajectory::Motion;
+use crate::verify::{Trajectory, VerifySettings};
+
+/// How much less a path has to cost than its smooth motion for the arm to stop at its corners, as a share.
+const WORTH_STOPPING: f64 = 0.005;
+
+/// How much closer to the path a motion is tried before one that stops at corners, as a share of the tolerance.
+const CLOSER: f64 = 0.1;
+
+/// Costs that differ by less than this share are the same: sums of the same steps in another order.
+const SAME_COST: f64 = 1e-9;
+
+/// Looks at each piece of a motion for the path along it, at first and at the most.
+const LOOKS: [usize; 2] = [24, 3072];
+
+/// A motion that the verifier accepts, and the path it goes along.
+struct Made {
+    smoothed: Smoothed,
+    joint_path: JointPath,
+    path_cost: f64,
+}
+
+/// The plan of `planner` that the best, or the first, of the candidates makes.
+///
+/// # Errors
+/// [`PlanError`], the last candidate's, where none is accepted.
+pub(super) fn accepted(
+    problem: &Problem<'_>,
+    planner: &str,
+    found: Found,
+    lower_bound: Option<f64>,
+) -> Result<Plan, PlanError> {
+    problem.monitor.stage(Stage::Trajectory);
+    let (scene, objective) = (problem.scene, problem.settings.objective);
+    let evaluations = found.effort.as_ref().map_or(0, |effort| effort.evaluations);
+    let mut refused = PlanError::NotFoundInBudget { evaluations };
+    let mut best: Option<(f64, Made)> = None;
+    for candidate in found.candidates {
+        let made = match candidate {
+            Candidate::Path { path, tip_travel, tolerance, may_stop } => {
+                along(problem, planner, path.path(), tolerance, may_stop).map(|smoothed| Made {
+                    smoothed,
+                    joint_path: path.path().clone(),
+                    path_cost: tip_travel,
+                })
+            }
+            Candidate::Motion(motion) => judged(problem, planner, motion),
+        };
+        let made = match made {
+            Ok(made) => made,
+            Err(PlanError::Stopped) => return Err(PlanError::Stopped),
+            Err(error) => {
+                refused = error;
+                continue;
+            }
+        };
+        let trajectory = &made.smoothed.trajectory;
+        if let Some(mismatch) = mismatched(problem, trajectory) {
+            refused = PlanError::Mismatch { planner: planner.to_owned(), mismatch };
+            continue;
+        }
+        let cost = objective.of_motion(scene.arm(), trajectory.motion());
+        if best.as_ref().is_none_or(|(known, of)| is_better((cost, &made), (*known, of))) {
+            best = Some((cost, made));
+        }
+        if found.pick == Pick::First {
+            break;
+        }
+    }
+    let (cost, Made { smoothed, joint_path, path_cost }) = best.ok_or(refused)?;
+    let record = PlanRecord {
+        cost,
+        lower_bound,
+        path_cost,
+        paths_to_choose_from: found.chosen_from,
+        tip_path: joint_path.tips(scene.arm()),
+        joint_path,
+        vias: smoothed.vias,
+        stops: smoothed.stops,
+        assumed_limits: problem.assumed_limits.clone(),
+        effort: found.effort,
+    };
+    Ok(Plan::new(record, smoothed.trajectory))
+}
+
+/// How the motion fails to be what was asked for.
+fn mismatched(problem: &Problem<'_>, trajectory: &Trajectory) -> Option<Mismatch> {
+    let (motion, changes) = (trajectory.motion(), &trajectory.verdict().posture_changes);
+    let takes = motion.duration();
+    match problem.settings.pace {
+        // An arm that is there already takes no time.
+        Pace::Duration(asked) if takes > 0.0 && (takes - asked).abs() > END_ROUNDING => {
+            Some(Mismatch::Duration { takes, asked })
+        }
+        _ => mismatch(problem.scene, problem.task, motion, changes),
+    }
+}
+
+/// Whether one costs less, or the same with more clearance.
+fn is_better((cost, one): (f64, &Made), (known, other): (f64, &Made)) -> bool {
+    let clearance = |made: &Made| {
+        made.smoothed.trajectory.verdict().least_clearance.map_or(f64::INFINITY, |at| at.distance)
+    };
+    let slack = SAME_COST * known;
+    cost < known - slack || (cost <= known + slack && clearance(one) > clearance(other))
+}
+
+/// A motion along `path`.
+fn along(
+    problem: &Problem<'_>,
+    planner: &str,
+    path: &JointPath,
+    tolerance: f64,
+    may_stop: bool,
+) -> Result<Smoothed, PlanError> {
+    let (scene, pace) = (problem.scene, problem.settings.pace);
+    let stated = stated_limits(scene.arm());
+    let wanted = (pace, problem.endpoints.keep_posture);
+    let smooth = |style| smooth(scene, &path.0, &problem.limits, &stated, wanted, style, problem.monitor);
+    let smoothed = smooth(Style::Flowing { tolerance })
+        .map_err(|error: SmoothError| error.in_terms_of(planner, pace))?;
+    if !(may_stop && is_worth_stopping(problem, path, &smoothed)) {
+        return Ok(smoothed);
+    }
+    // Closer to the path first, then on it with stops. Straight moves are refused only where the duration is too short for so many
+    // stops.
+    match smooth(Style::Flowing { tolerance: CLOSER * tolerance }) {
+        Ok(closer) if !is_worth_stopping(problem, path, &closer) => Ok(closer),
+        _ => Ok(smooth(Style::StopToStop).unwrap_or(smoothed)),
+    }
+}
+
+/// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
+fn is_worth_stopping(problem: &Problem<'_>, path: &JointPath, smoothed: &Smoothed) -> bool {
+    let (arm, objective) = (problem.scene.arm(), problem.settings.objective);
+    objective.of_path(arm, path).is_some_and(|own| {
+        own < (1.0 - WORTH_STOPPING) * objective.of_motion(arm, smoothed.trajectory.motion())
+    })
+}
+
+/// The motion as it is.
+fn judged(problem: &Problem<'_>, planner: &str, motion: Motion) -> Result<Made, PlanError> {
+    let keep_going = || problem.monitor.keep_going();
+    let settings = VerifySettings::default();
+    let trajectory =
+        Trajectory::certify_until(problem.scene, motion, &settings, &keep_going).map_err(|verdict| {
+            match problem.go_on() {
+                Ok(()) => PlanError::Refused { planner: planner.to_owned(), verdict },
+                Err(stopped) => stopped,
+            }
+        })?;
+    let (joint_path, vias) = followed(problem.scene, trajectory.motion());
+    let path_cost = trajectory.motion().tip_length(problem.scene.arm());
+    Ok(Made { smoothed: Smoothed { trajectory, vias, stops: 0 }, joint_path, path_cost })
+}
+
+/// A path along the motion, as dense as its straight moves need to be certified, and its places where pieces meet.
+fn followed(scene: &Scene, motion: &Motion) -> (JointPath, Vec<usize>) {
+    let [mut count, most] = LOOKS;
+    loop {
+        let places = motion.instants(count);
+        let certified = places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1]));
+        if certified || count >= most {
+            let vias = (0..=motion.pieces().len()).map(|i| i * count).collect();
+            return (JointPath(places.into_iter().map(Configuration::from).collect()), vias);
+        }
+        count *= 2;
+    }
+}

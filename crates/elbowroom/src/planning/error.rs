@@ -1,0 +1,187 @@
+use thiserror::Error;
+
+use super::{Mismatch, NoPath};
+use crate::arm::Posture;
+use crate::free_space::NotFree;
+use crate::geometry::Point;
+use crate::scene::in_words;
+use crate::search::GoalError;
+use crate::trajectory::MotionError;
+use crate::verify::Verdict;
+
+/// What planners say of a scene in which an obstacle moves.
+pub(crate) fn standing_still(obstacle: usize, name: Option<&str>) -> String {
+    let which = in_words(obstacle, name);
+    format!(
+        "planners take obstacles to stand still; {which} moves: the command follow and Replanner serve those that move"
+    )
+}
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    /// An obstacle of the scene moves.
+    #[error("{}", standing_still(*obstacle, name.as_deref()))]
+    Moving {
+        /// Its number, from 0.
+        obstacle: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+    },
+    /// The planner's own settings make no sense.
+    #[error("planner {planner}: {reason}")]
+    BadSettings {
+        /// Its name.
+        planner: String,
+        /// What is wrong with them, and what is allowed.
+        reason: String,
+    },
+    /// The planner could not go on, for a reason of its own.
+    #[error("planner {planner} failed: {reason}")]
+    Failed {
+        /// Its name.
+        planner: String,
+        /// In its own words.
+        reason: String,
+    },
+    /// The motion shall take no time, or a time that is no number.
+    #[error("duration is {duration} s, it must be finite and greater than 0")]
+    Duration {
+        /// What was asked (s).
+        duration: f64,
+    },
+    /// The motion limits of the scene do not allow so short a duration along the path found.
+    #[error(
+        "duration is {duration} s, the motion limits allow {fastest:.6} s at the fastest along the path found"
+    )]
+    TooFast {
+        /// What was asked (s).
+        duration: f64,
+        /// What is possible (s).
+        fastest: f64,
+    },
+    /// The task begins at a place that is not free.
+    #[error("start: {0}")]
+    Start(NotFree),
+    /// The task ends at a place that is not free.
+    #[error("goal: {0}")]
+    Goal(NotFree),
+    /// The goal is free, but not in the posture asked for.
+    #[error("goal: not free {}, the posture asked for", wanted.name())]
+    GoalPosture {
+        /// Which was asked for.
+        wanted: Posture,
+    },
+    /// The grid does not connect start and goal; a finer one may.
+    #[error("not found at this resolution: no certified path over the free grid points, {step} m apart")]
+    NotFound {
+        /// Distance between grid points (m).
+        step: f64,
+    },
+    /// What the planner took to be free, this much less than all that is, does not connect start and goal.
+    #[error("not found at this resolution: no certified path {distance} rad away from all obstacles")]
+    NotFoundOverJoints {
+        /// Least distance kept from forbidden angles (rad).
+        distance: f64,
+    },
+    /// The planner cannot serve an arm of so many links.
+    #[error("planner {planner} is for arms of {}; this one has {links}", links_in_words(*least, *most))]
+    OtherArm {
+        /// Its name.
+        planner: String,
+        /// The fewest links that it serves.
+        least: usize,
+        /// The most.
+        most: usize,
+        /// How many the arm has.
+        links: usize,
+    },
+    /// A posture is asked for of an arm that has no two.
+    #[error("postures up, down and keep are for arms of 2 links; this one has {links}: any")]
+    PostureOfMany {
+        /// How many links the arm has.
+        links: usize,
+    },
+    /// No free configuration was found for an end of the task; there may be one.
+    #[error("{end}: no free configuration found that puts the tip at ({} m, {} m), in {tries} tries", tip.x, tip.y)]
+    EndNotFound {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// Where the tip shall be (m).
+        tip: Point,
+        /// From how many configurations it was led there.
+        tries: usize,
+    },
+    /// No candidate was free of contact; a greater budget may find one.
+    #[error(
+        "not found in {evaluations} evaluations: the best candidate still is in contact or beyond limits"
+    )]
+    NotFoundInBudget {
+        /// How many candidates were judged.
+        evaluations: usize,
+    },
+    /// No motion does it: proved.
+    #[error("{0}")]
+    NoPath(NoPath),
+    /// A gap is asked of a planner that searches only once.
+    #[error("gap is for planners that search in rounds, such as optimal, not for {planner}")]
+    GapOfOneRound {
+        /// Its name.
+        planner: String,
+    },
+    /// The gap to be reached makes no sense.
+    #[error("gap is {gap}, it must be 0 or greater")]
+    Gap {
+        /// What was asked.
+        gap: f64,
+    },
+    /// A fault of ours: the motion costs less than what was proved to be the least.
+    #[error(
+        "the motion costs {cost}, less than the {bound} that was proved to be the least: one of the two is wrong"
+    )]
+    BelowBound {
+        /// Of the motion, in terms of the objective (m, rad or s).
+        cost: f64,
+        /// What was proved (m, rad or s).
+        bound: f64,
+    },
+    /// The monitor stopped it.
+    #[error("stopped before a path was found")]
+    Stopped,
+    /// A goal is no node of the graph.
+    #[error(transparent)]
+    GoalNode(#[from] GoalError),
+    /// The polynomials overflow.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The verifier does not accept the motion: the planner was wrong.
+    #[error("planner {planner}: its motion is not proved to be safe: {}", complaints(verdict))]
+    Refused {
+        /// Its name.
+        planner: String,
+        /// What the verifier found.
+        verdict: Box<Verdict>,
+    },
+    /// The motion is safe and does something else: the planner was wrong.
+    #[error("planner {planner}: {mismatch}")]
+    Mismatch {
+        /// Its name.
+        planner: String,
+        /// What is wrong with it.
+        mismatch: Mismatch,
+    },
+}
+
+fn links_in_words(least: usize, most: usize) -> String {
+    match (least, most) {
+        (least, most) if least == most => format!("{least} links"),
+        (least, usize::MAX) => format!("{least} links or more"),
+        (least, most) => format!("{least} to {most} links"),
+    }
+}
+
+/// The first things that the verifier complains about.
+fn complaints(verdict: &Verdict) -> String {
+    let said: Vec<String> = verdict.violations.iter().take(2).map(ToString::to_string).collect();
+    said.join("; ")
+}

@@ -1,0 +1,104 @@
+//! That each mechanism of the planners does something: without it one of these fails.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
+
+#[path = "worlds/build.rs"]
+#[expect(dead_code, reason = "shared between tests")]
+mod build;
+
+use build::{example, tip};
+use elbowroom::arm::{Joint, MotionLimits};
+use elbowroom::free_space::reason_against;
+use elbowroom::planners::{DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner, all, by_name};
+use elbowroom::planning::{Endpoints, Objective, OptionValue, Plan, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::scene::{Place, Scene, TaskPosture};
+
+fn asked(scene: &Scene, task: &str, planner: &dyn Planner, objective: Objective, seed: u64) -> Plan {
+    let settings = PlanSettings { objective, seed, ..PlanSettings::default() };
+    plan(scene, scene.task(task).unwrap(), planner, &settings, &Unwatched).unwrap()
+}
+
+#[test]
+fn a_tip_stands_for_sixteen_different_configurations_of_many_links() {
+    let scene = build::scene(build::arm(&[0.3; 5]), vec![build::circle(0.0, 1.0, 0.2)]);
+    let task = build::task("far", tip(0.6, 0.1), Place::Configuration([0.1; 5].into()), TaskPosture::Any);
+    let ends = Endpoints::new(&scene, &task, 0, &Unwatched).unwrap();
+    assert_eq!((ends.starts.len(), ends.goals.len()), (16, 1));
+    for (i, q) in ends.starts.iter().enumerate() {
+        let off = scene.arm().tip(q).distance(elbowroom::geometry::Point::new(0.6, 0.1));
+        assert!(off < 1e-9 && reason_against(&scene, q).is_none(), "{off}");
+        assert!(ends.starts[..i].iter().all(|other| scene.arm().distance(other, q) > 0.1));
+    }
+}
+
+#[test]
+fn the_time_bound_counts_speeding_up_and_slowing_down() {
+    // One joint turns by 2 rad at up to 0.8 rad/s with 0.4 rad/s²: 2 / 0.8 + 0.8 / 0.4 s, and less way never gets to 0.8.
+    let limits = MotionLimits { velocity: Some(0.8), acceleration: Some(0.4), jerk: None };
+    let joint = Joint { motion: limits, ..Joint::CONTINUOUS };
+    let scene = build::scene(build::arm_of(&[0.5, 0.4], 0.0, &[joint; 2]), vec![]);
+    for (turn, least) in [(2.0, 2.0 / 0.8 + 0.8 / 0.4), (0.9, 2.0 * f64::sqrt(0.9 / 0.4))] {
+        let at = |first: f64| Place::Configuration([first, 1.0].into());
+        let scene =
+            scene.clone().with_tasks(vec![build::task("turn", at(0.0), at(turn), TaskPosture::Any)]).unwrap();
+        let plan = asked(&scene, "turn", &OptimalPlanner, Objective::Time, 0);
+        let bound = plan.lower_bound().unwrap();
+        assert!((bound - least).abs() < 1e-6 * least, "{bound} {least}");
+    }
+}
+
+#[test]
+fn stops_are_the_via_points_at_which_the_arm_rests() {
+    let mut stops = 0;
+    for (scene, task, objective) in [
+        ("narrow", "first", Objective::Tip),
+        ("abb-irb-910sc-065", "pick", Objective::Joint),
+        ("fanuc-sr-3ia", "across", Objective::Joint),
+        ("narrow", "first", Objective::Time),
+    ] {
+        let plan = asked(&example(scene), task, &OptimalPlanner, objective, 0);
+        let motion = plan.trajectory().motion();
+        let at_rest = motion
+            .pieces()
+            .iter()
+            .skip(1)
+            .filter(|piece| piece.at(0.0).velocity.iter().all(|velocity| velocity.abs() < 1e-9));
+        assert_eq!(plan.record().stops, at_rest.count(), "{scene}");
+        stops += plan.record().stops;
+    }
+    assert!(stops > 10, "{stops}");
+}
+
+#[test]
+fn a_little_more_tip_travel_is_traded_for_what_the_arm_pays() {
+    // With joint travel or time as the objective paths within 1 % of the shortest are candidates too.
+    let scene = example("paper-standin");
+    let of = |objective| asked(&scene, "first", &DstarPsoPlanner::default(), objective, 0);
+    let (tip, joint, time) = (of(Objective::Tip), of(Objective::Joint), of(Objective::Time));
+    for other in [&joint, &time] {
+        assert!(other.record().paths_to_choose_from > tip.record().paths_to_choose_from);
+        let more = other.record().path_cost / tip.record().path_cost;
+        assert!(more > 1.0 && more <= 1.0101, "{more}");
+    }
+}
+
+#[test]
+fn paths_of_many_links_are_made_shorter() {
+    // Trees alone wander: without shortcuts these cost two to five times as much.
+    for (scene, task, objective, most) in [
+        ("three-links", "over", Objective::Joint, 0.0),
+        ("five-links", "reach", Objective::Joint, 0.0),
+        ("ten-links", "reach", Objective::Tip, 0.0),
+    ] {
+        let plan = asked(&example(scene), task, &GuidedRrtConnectPlanner::default(), objective, 0);
+        assert!(plan.cost() < most, "{scene}: {}", plan.cost());
+    }
+}
+
+#[test]
+fn swarms_that_stagnate_are_begun_anew() {
+    for planner in all().iter().filter(|planner| planner.budget() == Some("evaluations")) {
+        let few = by_name(planner.name(), &[("evaluations".to_owned(), OptionValue::Count(500))]).unwrap();
+        assert!(few.budget().is_some());
+    }
+}
