@@ -67,6 +67,7 @@ def problem(scene: er.Scene, task: str) -> str:
         if isinstance(shape, er.Circle):
             lines.append(("circle", *shape.center, shape.radius))
         else:
+            assert isinstance(shape, er.Polygon), "the peers know circles and polygons"
             lines.append(("polygon", *(value for corner in shape.vertices for value in corner)))
     return "\n".join(" ".join(map(str, line)) for line in lines)
 

@@ -5,6 +5,7 @@ import pickle
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import elbowroom as er
@@ -39,6 +40,25 @@ def test_every_scene_of_the_repository_loads(scenes: Path) -> None:
         assert er.Scene.load(file).tasks
 
 
+def test_a_segment_in_a_file_and_in_code_is_the_same(standin: er.Scene) -> None:
+    written = "segment: {from: [-10, 0.5], to: [20, 1.5], radius: 2.5}\n  - segment: {from: [0, 30], to: [5, 30]}"
+    scene = er.Scene.parse(SOUND.replace("circle: {center: [22, 22], radius: 5}\n    name: post", written))
+    walls = (
+        er.Segment(start=(-0.1, 0.005), end=(0.2, 0.015), radius=0.025),
+        er.Segment(start=(0.0, 0.3), end=(0.05, 0.3)),
+    )
+    assert scene.obstacles == walls
+    assert replace(standin, obstacles=walls).obstacles == pickle.loads(pickle.dumps(scene)).obstacles
+    assert walls[0].shifted((1.0, -1.0)) == replace(walls[0], start=(0.9, -0.995), end=(1.2, -0.985))
+    assert walls[0].outline == (((-0.1, 0.005), (0.2, 0.015)), 0.025)
+    # Upright but for 0.1 rad the second link crosses the thin wall; upright to the left of it stays 5 cm away.
+    crossing, beside = np.array([np.pi / 2 - 0.1, 0.0]), np.array([np.arccos(-0.05 / 0.25), 0.0])
+    beside[1] = np.pi / 2 - beside[0]
+    clearances = scene.core.link_clearances(np.array([crossing, beside]))[:, 1]
+    assert clearances == pytest.approx([0.0, 0.05], abs=1e-12)
+    assert er.Scene.parse(SOUND).sha256 != scene.sha256
+
+
 def test_configurations_and_units_come_through() -> None:
     text = SOUND.replace("[40, 10]", "{q: [10, 20]}")
     scene = er.Scene.parse(text)
@@ -53,6 +73,7 @@ def test_configurations_and_units_come_through() -> None:
         ("links: [25, 25]", "links: [25, -25]", 4, "arm.links[1]"),
         ("step: 1", "stepp: 1", 6, "grid.stepp"),
         ("radius: 5", "radius: .nan", 8, "obstacles[0].circle.radius"),
+        ("circle: {center: [22, 22], radius: 5}", "segment: {from: [2, 2], to: [2, 2]}", 8, "obstacles[0].segment"),
         ("min: -150", "min: 151", 5, "arm.joints[1]"),
         ("goal: [-45, -15]", "goal: [-45]", 11, "tasks.first.goal"),
     ],
@@ -87,6 +108,8 @@ def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
         ({"arm": er.Arm(links=(0.1, 0.2, 0.3), joints=(er.Joint(continuous=True),) * 2)}, "arm"),
         ({"arm": er.Arm(links=(0.1, 0.2), joints=(er.Joint(),) * 2)}, "arm.joints[0]"),
         ({"obstacles": [er.Circle(center=(0.0, 0.0), radius=-1.0)]}, "obstacles[0]"),
+        ({"obstacles": [er.Segment(start=(0.0, 0.0), end=(0.0, 0.0), radius=0.1)]}, "obstacles[0]"),
+        ({"obstacles": [er.Segment(start=(0.0, 0.0), end=(0.1, 0.0), radius=-0.1)]}, "obstacles[0]"),
         ({"obstacles": [er.Polygon(vertices=[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)])]}, "obstacles[0]"),
     ],
 )

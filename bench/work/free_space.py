@@ -8,6 +8,7 @@ import statistics
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 import elbowroom as er
 from bench.clock import OUT, ROOT, core, median_ms
 from bench.entries import MS_CLASS, Comparison, Entry, Goal, Section, attempt
+from elbowroom.scene import Obstacle
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -85,10 +87,11 @@ def numpy_map(scene: er.Scene) -> Mask:
     return free
 
 
-def touched(obstacle: er.Circle | er.Polygon, begin: Complex | complex, along: Complex, length: float) -> Mask:
+def touched(obstacle: Obstacle, begin: Complex | complex, along: Complex, length: float) -> Mask:
     """Return which links, from ``begin`` along ``along``, touch the obstacle."""
     if isinstance(obstacle, er.Circle):
         return near(complex(*obstacle.center), obstacle.radius, begin, along, length)
+    assert isinstance(obstacle, er.Polygon), "this map knows circles and polygons"
     corners = np.array([complex(*corner) for corner in obstacle.vertices])
     center = corners.mean()
     hit = near(center, float(np.abs(corners - center).max()), begin, along, length)
@@ -119,15 +122,22 @@ def cross(a: Complex, b: Complex) -> Floats:
     return a.real * b.imag - a.imag * b.real
 
 
+def shapely_core(obstacle: Obstacle) -> tuple[Any, float]:
+    """Return the point, line or polygon that ``obstacle`` is all around, and how far (m)."""
+    import shapely
+
+    points, radius = obstacle.outline
+    kind = {1: shapely.Point, 2: shapely.LineString}.get(len(points), shapely.Polygon)
+    return kind(points), radius
+
+
 def shapely_map(scene: er.Scene) -> Mask:
     """Return the maps by one prepared union of all obstacles: links are line strings from base to elbow to tip."""
     import shapely
 
     shapes = [
-        shapely.Point(shape.center).buffer(shape.radius, quad_segs=SIDES // 4)
-        if isinstance(shape, er.Circle)
-        else shapely.Polygon(shape.vertices)
-        for shape in scene.obstacles
+        inner.buffer(radius, quad_segs=SIDES // 4) if radius > 0.0 else inner
+        for inner, radius in map(shapely_core, scene.obstacles)
     ]
     union = shapely.union_all(shapes)
     shapely.prepare(union)
@@ -160,13 +170,11 @@ def only_touching(scene: er.Scene, ours: Mask, theirs: Mask, within: float) -> s
                 arm = shapely.LineString([(0, 0), (elbow[i].real, elbow[i].imag), (tips[i].real, tips[i].imag)])
                 grown, shrunk = False, False
                 for shape in scene.obstacles:
-                    if isinstance(shape, er.Circle):
-                        away = arm.distance(shapely.Point(shape.center)) - shape.radius
-                        grown, shrunk = grown or away <= within, shrunk or away <= -within
-                    else:
-                        polygon = shapely.Polygon(shape.vertices)
-                        grown = grown or arm.distance(polygon) <= within
-                        shrunk = shrunk or arm.intersects(polygon.buffer(-within, join_style="mitre"))
+                    inner, radius = shapely_core(shape)
+                    away = arm.distance(inner) - radius
+                    grown, shrunk = grown or away <= within, shrunk or away <= -within
+                    if radius == 0.0:
+                        shrunk = shrunk or arm.intersects(inner.buffer(-within, join_style="mitre"))
                 apart += not grown or shrunk
     rest = f"**{apart} of them not**" if apart else "all"
     return f"{int(theirs.sum()):,} free, {int(differ.sum())} differ, {rest} touching to within {within:g} m"

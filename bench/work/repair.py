@@ -25,11 +25,7 @@ LIMIT = 60.0
 def moved(scene: er.Scene, obstacle: int) -> er.Scene:
     """Return the scene with one obstacle a grid step to the right."""
     shapes = list(scene.obstacles)
-    shape, step = shapes[obstacle], scene.grid.step
-    if isinstance(shape, er.Circle):
-        shapes[obstacle] = replace(shape, center=(shape.center[0] + step, shape.center[1]))
-    else:
-        shapes[obstacle] = replace(shape, vertices=[(x + step, y) for x, y in shape.vertices])
+    shapes[obstacle] = shapes[obstacle].shifted((scene.grid.step, 0.0))
     return replace(scene, obstacles=tuple(shapes))
 
 

@@ -37,7 +37,7 @@ from elbowroom.known import Known, Sighting
 from elbowroom.plan import plan, plan_as_in_paper
 from elbowroom.replanner import Replanner, Update
 from elbowroom.samples import Samples
-from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Task
+from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Segment, Task
 from elbowroom.world import World
 
 __version__ = version("elbowroom")
@@ -73,6 +73,7 @@ __all__ = [
     "Samples",
     "Scene",
     "SceneError",
+    "Segment",
     "Sighting",
     "Task",
     "TimedOut",

@@ -54,7 +54,7 @@ class Scene:
         *,
         arm: scene.Arm,
         grid: scene.Grid,
-        obstacles: Sequence[scene.Circle | scene.Polygon],
+        obstacles: Sequence[scene.Obstacle],
         tasks: Sequence[tuple[str, scene.Task]],
     ) -> Scene: ...
     def link_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...

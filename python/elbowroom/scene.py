@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal
@@ -14,6 +14,9 @@ from elbowroom import _core
 from elbowroom.errors import SceneError
 
 Pair = tuple[float, float]
+Outline = tuple[Sequence[Pair], float]
+"""A shape as points with a radius (m): all that is within it of one point, of the line between two, or of a polygon."""
+
 PostureWish = Literal["up", "down", "any", "keep"]
 
 LARGEST_FILE = 4 * 1024 * 1024
@@ -93,6 +96,35 @@ class Circle:
     name: str | None = None
     motion: ObstacleMotion | None = None
 
+    @property
+    def outline(self) -> Outline:
+        """Its centre, with its radius."""
+        return (self.center,), self.radius
+
+    def shifted(self, by: Pair) -> Circle:
+        """Return the same moved by so much (m)."""
+        return replace(self, center=_plus(self.center, by))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Segment:
+    """A straight wall that the arm must not touch: all that is within ``radius`` of the line between two points (m)."""
+
+    start: Pair
+    end: Pair
+    radius: float = 0.0
+    name: str | None = None
+    motion: ObstacleMotion | None = None
+
+    @property
+    def outline(self) -> Outline:
+        """Its ends, with its radius."""
+        return (self.start, self.end), self.radius
+
+    def shifted(self, by: Pair) -> Segment:
+        """Return the same moved by so much (m)."""
+        return replace(self, start=_plus(self.start, by), end=_plus(self.end, by))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Polygon:
@@ -101,6 +133,23 @@ class Polygon:
     vertices: Sequence[Pair]
     name: str | None = None
     motion: ObstacleMotion | None = None
+
+    @property
+    def outline(self) -> Outline:
+        """Its corners, without a radius."""
+        return self.vertices, 0.0
+
+    def shifted(self, by: Pair) -> Polygon:
+        """Return the same moved by so much (m)."""
+        return replace(self, vertices=[_plus(vertex, by) for vertex in self.vertices])
+
+
+Obstacle = Circle | Segment | Polygon
+"""Something that the arm must not touch."""
+
+
+def _plus(point: Pair, by: Pair) -> Pair:
+    return (point[0] + by[0], point[1] + by[1])
 
 
 @dataclass(frozen=True)
@@ -146,7 +195,7 @@ class Scene:
 
     arm: Arm
     grid: Grid
-    obstacles: Sequence[Circle | Polygon] = ()
+    obstacles: Sequence[Obstacle] = ()
     tasks: Mapping[str, Task] = field(default_factory=dict)
     file: str | None = field(default=None, init=False, compare=False)
     """What the text is called that it was read from; None if it was made, or changed, in code."""
@@ -238,9 +287,16 @@ def _plain(part: Any) -> Any:
         return [_plain(value) for value in part]
 
 
-def _obstacle(part: dict[str, Any]) -> Circle | Polygon:
-    motion = ObstacleMotion(**part.pop("motion")) if "motion" in part else None
-    return (Circle if "radius" in part else Polygon)(**part, motion=motion)
+def _obstacle(part: Mapping[str, Any]) -> Obstacle:
+    points, radius, name = part["vertices"], part["radius"], part["name"]
+    motion = ObstacleMotion(**part["motion"]) if "motion" in part else None
+    match points:
+        case [center]:
+            return Circle(center=center, radius=radius, name=name, motion=motion)
+        case [start, end]:
+            return Segment(start=start, end=end, radius=radius, name=name, motion=motion)
+        case _:
+            return Polygon(vertices=points, name=name, motion=motion)
 
 
 def text_of(path: Path) -> str:

@@ -2,7 +2,7 @@ use elbowroom::arm::{Arm, JointLimits};
 use elbowroom::geometry::Point;
 use elbowroom::path::{link_clearances, self_clearance};
 use elbowroom::scene::{
-    self, Course, ObstacleMotion, Place, Shape, Sight, Task, TaskPosture, TwoLinkError, TwoLinkScene,
+    self, Course, ObstacleMotion, Place, Sight, Task, TaskPosture, TwoLinkError, TwoLinkScene,
 };
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
@@ -151,7 +151,8 @@ impl SceneFile {
         Some((at.line, at.column))
     }
 
-    /// The scene as plain data, in metres and radians, with the names of the dataclasses' fields.
+    /// The scene as plain data, in metres and radians, with the names of the dataclasses' fields; of shapes the vertices of
+    /// the core and the radius around it.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let scene = &self.0.scene;
         let parts = PyDict::new(py);
@@ -166,16 +167,9 @@ impl SceneFile {
         let obstacles = PyList::empty(py);
         for obstacle in scene.obstacles() {
             let part = PyDict::new(py);
-            match &obstacle.shape {
-                Shape::Circle(circle) => {
-                    part.set_item("center", (circle.center.x, circle.center.y))?;
-                    part.set_item("radius", circle.radius)?;
-                }
-                Shape::Polygon(polygon) => {
-                    let vertices: Vec<_> = polygon.vertices().iter().map(|v| (v.x, v.y)).collect();
-                    part.set_item("vertices", vertices)?;
-                }
-            }
+            let vertices: Vec<_> = obstacle.shape.vertices().iter().map(|v| (v.x, v.y)).collect();
+            part.set_item("vertices", vertices)?;
+            part.set_item("radius", obstacle.shape.radius())?;
             part.set_item("name", &obstacle.name)?;
             if let Some(motion) = &obstacle.motion {
                 part.set_item("motion", motion_parts(py, motion)?)?;

@@ -1,10 +1,10 @@
 //! The parts of a scene as the dataclasses of `elbowroom.scene` hold them.
 
 use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits};
-use elbowroom::geometry::{Circle, Point, Polygon, Vector};
+use elbowroom::geometry::{Point, Shape, ShapeError, Vector};
 use elbowroom::grid::Grid;
 use elbowroom::online::KnownMotion;
-use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Shape, Sight, Task, TaskPosture, Waypoint};
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Sight, Task, TaskPosture, Waypoint};
 use pyo3::prelude::*;
 
 use crate::errors;
@@ -38,6 +38,7 @@ pub(crate) struct GridPart {
 #[derive(FromPyObject)]
 pub(crate) enum ObstaclePart {
     Circle { center: [f64; 2], radius: f64, name: Option<String>, motion: Option<MotionPart> },
+    Segment { start: [f64; 2], end: [f64; 2], radius: f64, name: Option<String>, motion: Option<MotionPart> },
     Polygon { vertices: Vec<[f64; 2]>, name: Option<String>, motion: Option<MotionPart> },
 }
 
@@ -118,19 +119,20 @@ impl GridPart {
 impl ObstaclePart {
     /// The obstacle, and how it moves if it does.
     pub(crate) fn build(self, py: Python<'_>, index: usize) -> PyResult<Obstacle> {
-        let refused = |message: String| errors::part(py, &format!("obstacles[{index}]"), &message);
         let (name, shape, motion) = match self {
             Self::Circle { center, radius, name, motion } => {
-                let circle =
-                    Circle::new(point(center), radius).map_err(|error| refused(error.to_string()))?;
-                (name, Shape::Circle(circle), motion)
+                (name, Shape::circle(point(center), radius), motion)
+            }
+            Self::Segment { start, end, radius, name, motion } => {
+                (name, Shape::segment(point(start), point(end), radius), motion)
             }
             Self::Polygon { vertices, name, motion } => {
-                let polygon = Polygon::new(vertices.into_iter().map(point).collect())
-                    .map_err(|error| refused(error.to_string()))?;
-                (name, Shape::Polygon(polygon), motion)
+                (name, Shape::polygon(vertices.into_iter().map(point).collect()), motion)
             }
         };
+        let refused =
+            |error: ShapeError| errors::part(py, &format!("obstacles[{index}]"), &error.to_string());
+        let shape = shape.map_err(refused)?;
         let motion = motion.map(|motion| motion.build(py, index)).transpose()?;
         Ok(Obstacle { name, shape, motion })
     }

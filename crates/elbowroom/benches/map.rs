@@ -9,9 +9,9 @@ use std::hint::black_box;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::{FreeSpace, state_of};
-use elbowroom::geometry::{Circle, Point};
+use elbowroom::geometry::{Point, Shape};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use elbowroom::scene::{Obstacle, Scene};
 
 fn grid(points: usize) -> Grid {
     Grid::new([-0.5, 0.5], [-0.5, 0.5], 1.0 / (points - 1) as f64).expect("the grid is small")
@@ -27,7 +27,7 @@ fn circles(points: usize, count: usize) -> Scene {
             let angle = TAU * i as f64 / count as f64;
             let distance = if i % 2 == 0 { 0.42 } else { 0.3 };
             let center = Point::new(distance * angle.cos(), distance * angle.sin());
-            Obstacle::still(Shape::Circle(Circle { center, radius: 0.03 }))
+            Obstacle::still(Shape::circle(center, 0.03).expect("a circle"))
         })
         .collect();
     let arm = arm.expect("the measures are sound");

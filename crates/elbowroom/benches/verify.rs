@@ -6,9 +6,9 @@ use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use elbowroom::arm::{Arm, Joint};
-use elbowroom::geometry::{Circle, Point};
+use elbowroom::geometry::{Point, Shape};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use elbowroom::scene::{Obstacle, Scene};
 use elbowroom::trajectory::{Motion, durations_by_length, quintic_through, vias_at};
 use elbowroom::verify::{VerifySettings, verify};
 
@@ -16,7 +16,7 @@ fn scene() -> Scene {
     let arm = Arm::new(Point::new(0.0, 0.0), vec![0.25; 2], 0.0, vec![Joint::CONTINUOUS; 2], false);
     let centers = [[0.45, 0.05], [-0.45, 0.1], [0.05, -0.2], [0.2, 0.45], [-0.2, -0.3]];
     let obstacles = centers
-        .map(|[x, y]| Obstacle::still(Shape::Circle(Circle { center: Point::new(x, y), radius: 0.05 })))
+        .map(|[x, y]| Obstacle::still(Shape::circle(Point::new(x, y), 0.05).expect("a circle")))
         .to_vec();
     let grid = Grid::new([-0.5, 0.5], [-0.5, 0.5], 0.01).expect("a grid");
     Scene::new(arm.expect("an arm"), grid, obstacles, Vec::new()).expect("a scene")

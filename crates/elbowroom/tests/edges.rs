@@ -75,11 +75,12 @@ fn random_move(rng: &mut ChaCha8Rng) -> Option<Move> {
         let (distance, angle) = (reach * number(rng, 0.1, 1.1), number(rng, -PI, PI));
         let [x, y] = [distance * angle.cos(), distance * angle.sin()];
         let size = 10f64.powf(number(rng, -3.0, -1.0));
-        obstacles.push(if chance(rng) {
-            build::circle(x, y, size)
-        } else {
-            let corner = |k: f64| [x + size * (angle + k).cos(), y + size * (angle + k).sin()];
-            build::polygon(&[corner(0.0), corner(1.9), corner(4.0)])
+        let corner = |k: f64| [x + size * (angle + k).cos(), y + size * (angle + k).sin()];
+        let radius = if chance(rng) { 0.0 } else { 0.2 * size };
+        obstacles.push(match rng.next_u64() % 3 {
+            0 => build::circle(x, y, size),
+            1 => build::rounded(&[corner(0.0), corner(1.9), corner(4.0)], radius),
+            _ => build::segment([corner(0.0), corner(2.5)], radius),
         });
     }
     if chance(rng) {

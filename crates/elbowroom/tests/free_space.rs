@@ -15,9 +15,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use build::{circle, joint, stops};
 use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::{CONTACT_FLOOR, CellState, FreeSpace, Reason, configurations, state_of};
-use elbowroom::geometry::{Circle, Point, Polygon, Vector};
+use elbowroom::geometry::{Point, Shape, Vector};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Place, Scene, SceneProblem, Shape};
+use elbowroom::scene::{Obstacle, Place, Scene};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -56,8 +56,8 @@ fn random_limits(rng: &mut ChaCha8Rng) -> JointLimits {
     }
 }
 
-/// Round about `center`, convex or not.
-fn star(rng: &mut ChaCha8Rng, center: Point, size: f64) -> Obstacle {
+/// Round about `center`, convex or not, its corners rounded by so much (m).
+fn star(rng: &mut ChaCha8Rng, center: Point, size: f64, rounding: f64) -> Obstacle {
     let corners = 3 + pick(rng, 7);
     let turned = uniform(rng, 0.0, TAU);
     let mut vertices: Vec<Point> = (0..corners)
@@ -70,7 +70,14 @@ fn star(rng: &mut ChaCha8Rng, center: Point, size: f64) -> Obstacle {
     if pick(rng, 2) == 0 {
         vertices.reverse();
     }
-    Obstacle::still(Shape::Polygon(Polygon::new(vertices).unwrap()))
+    Obstacle::still(Shape::rounded_polygon(vertices, rounding).unwrap())
+}
+
+/// A wall from `center`, as thin as a line or less so.
+fn wall(rng: &mut ChaCha8Rng, center: Point, size: f64) -> Obstacle {
+    let to = center + Vector::polar(size * 10f64.powf(uniform(rng, -2.0, 0.5)), uniform(rng, -PI, PI));
+    let radius = [0.0, 0.1, 1.0][pick(rng, 3) as usize] * size;
+    Obstacle::still(Shape::segment(center, to, radius).unwrap())
 }
 
 fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
@@ -94,7 +101,12 @@ fn random_scene(rng: &mut ChaCha8Rng) -> Scene {
                 base.y + uniform(rng, -1.2, 1.2) * reach,
             );
             let size = reach * 10f64.powf(uniform(rng, -3.0, -0.5));
-            if pick(rng, 2) == 0 { circle(center.x, center.y, size) } else { star(rng, center, size) }
+            match pick(rng, 5) {
+                0 | 1 => circle(center.x, center.y, size),
+                2 => star(rng, center, size, 0.0),
+                3 => star(rng, center, size, 0.4 * size),
+                _ => wall(rng, center, size),
+            }
         })
         .collect();
     of_parts(arm, grid, obstacles)
@@ -233,8 +245,8 @@ fn maps_on_whole_numbers_equal_state_of() {
             };
             joint(limits)
         });
-        // As far out as the circles may be.
-        let offset = [0.0, 0.0, 7.0, 1e6 - 10.0][pick(&mut rng, 4) as usize];
+        // As far out as what is round may be.
+        let offset = [0.0, 0.0, 7.0, 1e6 - 20.0][pick(&mut rng, 4) as usize];
         let half_width = [0.0, 1.0][pick(&mut rng, 2) as usize];
         let arm = arm(Point::new(offset, -offset), lengths, half_width, joints);
         // Half of the obstacles are the floor of contact away from tangents and from lines of the grid.
@@ -248,6 +260,12 @@ fn maps_on_whole_numbers_equal_state_of() {
                     return circle(x + offset, y - offset, radius - floor);
                 }
                 let (w, h) = (1.0 + pick(&mut rng, 6) as f64, 1.0 + pick(&mut rng, 6) as f64);
+                if pick(&mut rng, 3) == 0 {
+                    // Level, upright or slanting, as thin as a line or as thick as a link.
+                    let (w, h) = [(w, 0.0), (0.0, h), (w, h), (w, -h)][pick(&mut rng, 4) as usize];
+                    let radius = [0.0, 1.0 - floor][pick(&mut rng, 2) as usize];
+                    return Obstacle::still(Shape::segment(at(x, y), at(x + w, y + h), radius).unwrap());
+                }
                 let corners = match pick(&mut rng, 4) {
                     // A box with a vertex in the middle of each of two edges; a wedge; a room around the arm, open
                     // to one side; a box around all of it.
@@ -260,7 +278,7 @@ fn maps_on_whole_numbers_equal_state_of() {
                         .to_vec(),
                     _ => vec![at(-30.0, -30.0), at(30.0, -30.0), at(30.0, 30.0), at(-30.0, 30.0)],
                 };
-                Obstacle::still(Shape::Polygon(Polygon::new(corners).unwrap()))
+                Obstacle::still(Shape::polygon(corners).unwrap())
             })
             .collect();
         let range = |middle: f64| [middle - 10.0, middle + 10.0];
@@ -300,7 +318,11 @@ fn maps_among_thousands_of_obstacles_equal_state_of() {
     for (count, size) in [(126, 0.01), (127, 0.01), (3_000, 0.001)] {
         let obstacles = (0..count).map(|_| {
             let (x, y) = (uniform(&mut rng, -0.7, 0.7), uniform(&mut rng, -0.7, 0.7));
-            if pick(&mut rng, 3) == 0 { star(&mut rng, Point::new(x, y), size) } else { circle(x, y, size) }
+            if pick(&mut rng, 3) == 0 {
+                star(&mut rng, Point::new(x, y), size, 0.0)
+            } else {
+                circle(x, y, size)
+            }
         });
         // The last one is in the way as well.
         let obstacles = obstacles.chain([circle(0.0, -0.3, 0.05)]).skip(1).collect();
@@ -316,7 +338,7 @@ fn maps_among_thousands_of_obstacles_equal_state_of() {
 /// The longest and the shortest arms, far and huge obstacles, vertices and grids at the end of the numbers.
 #[test]
 fn maps_at_the_ends_of_the_numbers_equal_state_of() {
-    let (mut with_circles, mut refused) = (0, 0);
+    let (mut shapes, mut refused) = (0, 0);
     for (lengths, base) in [
         ([1e6, 1e6], 0.0),
         ([1e6, 1e-6], 0.0),
@@ -329,41 +351,37 @@ fn maps_at_the_ends_of_the_numbers_equal_state_of() {
     ] {
         let size = lengths[0] + lengths[1];
         let at = |x: f64, y: f64| Point::new(base + size * x, base + size * y);
-        let polygon = |corners: [[f64; 2]; 4]| {
-            Obstacle::still(Shape::Polygon(Polygon::new(corners.map(|[x, y]| at(x, y)).to_vec()).unwrap()))
-        };
+        let polygon = |corners: [[f64; 2]; 4]| Shape::polygon(corners.map(|[x, y]| at(x, y)).to_vec());
         let tip = at(0.3, 0.45);
         let (huge, tiny) = (1e300 / size, 1e-200);
-        for obstacle in [
-            circle(tip.x, tip.y, 0.1 * size),
-            circle(tip.x, tip.y, 1e6),
-            circle(1e6, 1e6, 1e6),
-            circle(tip.x, tip.y, f64::INFINITY),
-            circle(tip.x, tip.y, -1.0),
-            circle(f64::NAN, 0.0, 1.0),
+        for shape in [
+            Shape::circle(tip, 0.1 * size),
+            Shape::circle(tip, 1e6),
+            Shape::circle(Point::new(1e6, 1e6), 1e6),
+            Shape::segment(tip, at(0.8, 0.1), 0.0),
+            Shape::segment(tip, Point::new(tip.x, tip.y.next_up()), 0.0),
+            Shape::segment(tip, Point::new(-1e6, 1e6), 0.1 * size),
             polygon([[0.1, 0.3], [0.8, 0.3], [0.8, 0.4], [0.1, 0.4]]),
             polygon([[0.1, 0.3], [huge, 0.3], [huge, huge], [0.1, huge]]),
-            build::polygon(&[[0.0, 0.0], [tiny, 0.0], [0.0, -size]]),
+            Shape::polygon([[0.0, 0.0], [tiny, 0.0], [0.0, -size]].map(|[x, y]| Point::new(x, y)).to_vec()),
         ] {
+            let Ok(shape) = shape else {
+                refused += 1;
+                continue;
+            };
+            shapes += 1;
             let arm = arm(Point::new(base, base), lengths, 0.0, [Joint::CONTINUOUS; 2]);
             let range = [base - 1.1 * size, base + 1.1 * size];
             for grid in [Grid::new(range, range, size / 20.0), Grid::new([-1e300, 1e300], [-1.0, 1.0], 1e299)]
             {
-                let scene = Scene::new(arm.clone(), grid.unwrap(), vec![obstacle.clone()], Vec::new());
-                if let Shape::Circle(circle) = obstacle.shape {
-                    let sound = Circle::new(circle.center, circle.radius).is_ok();
-                    *(if sound { &mut with_circles } else { &mut refused }) += 1;
-                    if !sound {
-                        assert!(matches!(scene, Err(SceneProblem::Circle { obstacle: 0, .. })), "{circle:?}");
-                        continue;
-                    }
-                }
+                let obstacles = vec![Obstacle::still(shape.clone())];
+                let scene = Scene::new(arm.clone(), grid.unwrap(), obstacles, Vec::new());
                 assert_maps_are_those_of_state_of(&scene.unwrap());
             }
         }
     }
-    // Three sound circles and three that are none, twice each; two arms are too far out for two of the sound ones.
-    assert_eq!((with_circles, refused), (2 * (5 * 3 + 2), 2 * (7 * 3 + 2 * 2)));
+    // Two tips are too far out for what is round, and once the end of a segment is.
+    assert_eq!((shapes, refused), (7 * 9 - 11, 2 * 5 + 1));
 }
 
 /// The 3-4-5 arm of the tangency tests: at the tip (0.3, 0.4) its second link stands upright at x = 0.3.
@@ -449,7 +467,7 @@ fn a_place_that_is_not_free_says_why_and_where_the_arm_could_stand() {
 #[test]
 fn depth_in_a_polygon_is_that_of_the_innermost_point() {
     let corners = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]];
-    let polygon = Polygon::new(corners.map(|[x, y]| Point::new(x, y)).to_vec()).unwrap();
+    let polygon = Shape::polygon(corners.map(|[x, y]| Point::new(x, y)).to_vec()).unwrap();
     let depth = |a: [f64; 2], b: [f64; 2]| {
         let segment = elbowroom::geometry::Segment::new(Point::new(a[0], a[1]), Point::new(b[0], b[1]));
         -polygon.signed_distance_to_segment(segment)

@@ -12,11 +12,11 @@ mod distance;
 
 use build::example;
 use chain_judge::clearance;
-use elbowroom::geometry::{Circle, Vector};
+use elbowroom::geometry::Vector;
 use elbowroom::path::{straight_move_is_free, straight_move_keeps};
 use elbowroom::planners::{self, DstarPlanner, DstarPsoPlanner, plan_as_in_paper};
 use elbowroom::planning::{Pace, PlanError, PlanSettings, Planner, Unwatched, plan};
-use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight, TaskPosture};
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Scene, Sight, TaskPosture};
 use elbowroom::trajectory::Motion;
 use elbowroom::verify::{Against, Trajectory, Verdict, VerifySettings, Violation, verify};
 
@@ -33,8 +33,7 @@ fn still(scene: &Scene) -> Scene {
 fn at(scene: &Scene, time: f64) -> Scene {
     let there = |obstacle: &Obstacle| {
         let by = obstacle.motion.as_ref().map_or(Vector::new(0.0, 0.0), |m| m.course().shift_at(time));
-        let Shape::Circle(circle) = obstacle.shape else { panic!("a circle") };
-        Obstacle::still(Shape::Circle(Circle { center: circle.center + by, ..circle }))
+        Obstacle::still(obstacle.shape.shifted(by))
     };
     scene.with_obstacles(scene.obstacles().iter().map(there).collect()).unwrap()
 }

@@ -1,6 +1,6 @@
 //! Which lists of points are simple polygons, judged in whole numbers and pair by pair.
 
-use elbowroom::geometry::{Point, Polygon, PolygonError};
+use elbowroom::geometry::{Point, Shape, ShapeError};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -43,9 +43,9 @@ fn judged(corners: &[Corner]) -> Option<(usize, usize)> {
 }
 
 fn found(corners: &[Corner]) -> Option<(usize, usize)> {
-    match Polygon::new(corners.iter().map(|&[x, y]| Point::new(x as f64, y as f64)).collect()) {
+    match Shape::polygon(corners.iter().map(|&[x, y]| Point::new(x as f64, y as f64)).collect()) {
         Ok(_) => None,
-        Err(PolygonError::EdgesMeet { first, second }) => Some((first, second)),
+        Err(ShapeError::EdgesMeet { first, second }) => Some((first, second)),
         Err(error) => panic!("{error}"),
     }
 }

@@ -21,7 +21,7 @@ use elbowroom::arm::{Joint, JointLimits, MotionLimits};
 use elbowroom::geometry::{Point, Segment, Vector};
 use elbowroom::online::{Decision, Replanner, World};
 use elbowroom::path::link_clearances;
-use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Shape, Sight, Waypoint};
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Sight, Waypoint};
 use elbowroom::trajectory::{Motion, State};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -179,10 +179,10 @@ fn least(obstacles: &[Obstacle], q: [f64; 2]) -> f64 {
 /// The obstacles where they are at `time` (s).
 fn obstacles_at(episode: &Episode, time: f64) -> Vec<Obstacle> {
     let place = |obstacle: &Obstacle| {
-        let Shape::Circle(circle) = obstacle.shape else { panic!("only discs are drawn") };
+        let [center] = *obstacle.shape.vertices() else { panic!("only discs are drawn") };
         let motion = obstacle.motion.as_ref();
         let shift = motion.map_or(Vector::new(0.0, 0.0), |motion| motion.course().shift_at(time));
-        disc(circle.center + shift, circle.radius)
+        disc(center + shift, obstacle.shape.radius())
     };
     episode.world.scene().obstacles().iter().map(place).collect()
 }
@@ -203,8 +203,8 @@ fn is_clear(episode: &Episode, motion: &Motion, is_last: bool) -> bool {
 fn is_doomed(episode: &Episode, end: f64) -> bool {
     let discs_at = |time: f64| {
         let plain = |obstacle: Obstacle| {
-            let Shape::Circle(circle) = obstacle.shape else { panic!("only discs are drawn") };
-            ([circle.center.x, circle.center.y], circle.radius)
+            let [center] = *obstacle.shape.vertices() else { panic!("only discs are drawn") };
+            ([center.x, center.y], obstacle.shape.radius())
         };
         obstacles_at(episode, time).into_iter().map(plain).collect()
     };

@@ -6,7 +6,7 @@ mod build;
 
 use build::{circle, task, tip};
 use elbowroom::arm::{Joint, MotionLimits};
-use elbowroom::geometry::Vector;
+use elbowroom::geometry::{Point, Shape, ShapeError, Vector};
 use elbowroom::scene::{
     Course, Obstacle, ObstacleMotion, Place, Scene, SceneProblem, Sight, Task, TaskPosture, TwoLinkError,
 };
@@ -24,8 +24,8 @@ fn joints(q: &[f64]) -> Place {
 }
 
 #[test]
-fn circles_that_are_none_are_refused() {
-    let sound = three_links(vec![circle(0.5, 0.5, 0.1)], Vec::new()).unwrap();
+fn shapes_that_are_none_are_refused() {
+    let at = Point::new;
     for (x, y, radius) in [
         (f64::NAN, 0.0, 0.1),
         (0.0, f64::NAN, 0.1),
@@ -36,14 +36,27 @@ fn circles_that_are_none_are_refused() {
         (0.0, 0.0, f64::NAN),
         (0.0, 0.0, f64::INFINITY),
     ] {
-        let obstacles = vec![circle(0.5, 0.5, 0.1), circle(x, y, radius)];
-        for refused in [three_links(obstacles.clone(), Vec::new()), sound.with_obstacles(obstacles)] {
-            let Err(problem @ SceneProblem::Circle { obstacle: 1, .. }) = refused else {
-                panic!("({x}, {y}), {radius}: {refused:?}")
-            };
-            assert!(problem.to_string().starts_with("obstacle 2: "), "{problem}");
+        let refused = Shape::circle(at(x, y), radius);
+        assert!(matches!(refused, Err(ShapeError::Circle { .. })), "({x}, {y}), {radius}: {refused:?}");
+        if (x, y, radius) != (0.0, 0.0, 0.0) {
+            for [from, to] in [[at(x, y), at(1.0, 1.0)], [at(1.0, 1.0), at(x, y)]] {
+                let refused = Shape::segment(from, to, radius);
+                assert!(matches!(refused, Err(ShapeError::Segment { .. })), "{from:?} {to:?} {radius}");
+            }
+            let refused = Shape::rounded_polygon(vec![at(x, y), at(1.0, 0.0), at(0.0, 1.0)], radius);
+            let known = matches!(refused, Err(ShapeError::Rounding { .. } | ShapeError::NotFinite { .. }));
+            assert!(known, "{refused:?}");
         }
     }
+    assert!(Shape::segment(at(0.0, 0.0), at(1.0, 1.0), 0.0).is_ok());
+    let point = Shape::segment(at(0.5, 0.1), at(0.5, 0.1), 0.1).unwrap_err();
+    assert_eq!(
+        point.to_string(),
+        "both ends are at (0.5 m, 0.1 m); what has one place and a radius is a circle"
+    );
+    let far = vec![at(2e6, 0.0), at(3e6, 0.0), at(0.0, 1.0)];
+    assert!(Shape::rounded_polygon(far.clone(), 0.0).is_ok());
+    assert_eq!(Shape::rounded_polygon(far, 0.1), Err(ShapeError::Rounding { radius: 0.1 }));
 }
 
 #[test]

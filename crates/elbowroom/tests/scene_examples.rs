@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use elbowroom::arm::JointLimits;
-use elbowroom::geometry::{Circle, Point};
-use elbowroom::scene::{Place, Shape, TaskPosture, parse};
+use elbowroom::geometry::{Point, Shape};
+use elbowroom::scene::{Place, TaskPosture, parse};
 
 /// The text of an example scene.
 fn example(name: &str) -> std::io::Result<String> {
@@ -70,17 +70,15 @@ fn the_scenes_of_the_paper_are_read_as_they_are_written() {
         if obstacles == 5 {
             for (obstacle, [x, y]) in scene.obstacles().iter().zip(posts) {
                 let center = Point::new(x / 100.0, y / 100.0);
-                assert_eq!(obstacle.shape, Shape::Circle(Circle { center, radius: 0.05 }));
+                assert_eq!(Ok(&obstacle.shape), Shape::circle(center, 0.05).as_ref());
             }
         }
     }
     let corners = scene("narrow")
         .obstacles()
         .iter()
-        .filter_map(|obstacle| match &obstacle.shape {
-            Shape::Polygon(polygon) => Some(polygon.vertices().len()),
-            Shape::Circle(_) => None,
-        })
+        .map(|obstacle| obstacle.shape.vertices().len())
+        .filter(|&corners| corners > 1)
         .collect::<Vec<_>>();
     assert_eq!(corners, [3, 4, 5, 6]);
 }

@@ -1,8 +1,8 @@
 //! Scene files: what they say, and what is said of those that are wrong.
 
 use elbowroom::arm::{JointLimits, MotionLimits};
-use elbowroom::geometry::{Point, Vector};
-use elbowroom::scene::{Course, Location, ObstacleMotion, Place, Shape, Sight, TaskPosture, Waypoint, parse};
+use elbowroom::geometry::{Point, Shape, Vector};
+use elbowroom::scene::{Course, Location, ObstacleMotion, Place, Sight, TaskPosture, Waypoint, parse};
 
 const SOUND: &str = "\
 elbowroom: 1
@@ -40,10 +40,9 @@ fn every_part_is_read_in_metres_and_radians() {
     assert_eq!(scene.arm().joints()[1].limits, JointLimits::Range { min: -bend, max: bend });
     assert_eq!((scene.grid().columns(), scene.grid().rows()), (101, 81));
     assert_eq!(scene.obstacles()[0].name.as_deref(), Some("post"));
-    assert!(matches!(&scene.obstacles()[0].shape, Shape::Circle(c) if c.radius == 0.05));
-    assert!(
-        matches!(&scene.obstacles()[1].shape, Shape::Polygon(p) if p.vertices()[1] == Point::new(0.05, 0.3))
-    );
+    let shapes: Vec<&Shape> = scene.obstacles().iter().map(|obstacle| &obstacle.shape).collect();
+    assert_eq!((shapes[0].vertices().len(), shapes[0].radius()), (1, 0.05));
+    assert_eq!((shapes[1].vertices()[1], shapes[1].radius()), (Point::new(0.05, 0.3), 0.0));
     let task = scene.task("first").unwrap();
     assert_eq!(task.start, Place::Tip(Point::new(0.4, 0.1)));
     assert_eq!(task.goal, Place::Configuration([90f64.to_radians(), -30f64.to_radians()].into()));
@@ -68,6 +67,19 @@ fn lengths_and_angles_are_those_nearest_to_what_is_written() {
     let joint = parse(&radians, "s.yaml").unwrap().scene.arm().joints()[0];
     let motion = MotionLimits { velocity: Some(9.0), acceleration: Some(8.0), jerk: Some(7.0) };
     assert_eq!(joint.motion, motion);
+}
+
+#[test]
+fn a_segment_is_a_wall_as_thick_as_it_says() {
+    for (written, radius) in [("", 0.0), (", radius: 0", 0.0), (", radius: 2.5", 0.025)] {
+        let segment = format!("segment: {{from: [-5, 0.5], to: [1, 20]{written}}}");
+        let text = SOUND.replace("polygon: [[0, 30], [5, 30], [0, 35]]", &segment);
+        let scene = parse(&text, "s.yaml").unwrap().scene;
+        assert_eq!(
+            scene.obstacles()[1].shape,
+            Shape::segment(Point::new(-0.05, 0.005), Point::new(0.01, 0.2), radius).unwrap()
+        );
+    }
 }
 
 #[test]
@@ -182,12 +194,37 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "name: post",
             "name: post\n    polygon: [[0, 0], [1, 0], [0, 1]]",
-            "s.yaml:12:5: obstacles[0]: an obstacle is either a circle or a polygon; found both",
+            "s.yaml:12:5: obstacles[0]: an obstacle is one of circle, segment, polygon; found more than one",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
+            "segment: {from: [1, 2], to: [1, 2], radius: 5}",
+            "s.yaml:12:14: obstacles[0].segment: both ends are at (0.01 m, 0.02 m); what has one place and a radius is a circle",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
+            "segment: {from: [1, 2], to: [1, 3], radius: -5}",
+            "s.yaml:12:49: obstacles[0].segment.radius: found -5; allowed: 0 or more",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
+            "segment: {from: [1, 2], to: [1]}",
+            "s.yaml:12:33: obstacles[0].segment.to: found a list of 1; allowed: [x, y]",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
+            "segment: {from: [1, 2], radius: 5}",
+            "s.yaml:12:14: obstacles[0].segment: missing: to",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
+            "segment: {from: [1, 2], end: [1, 3]}",
+            "s.yaml:12:29: obstacles[0].segment.end: no such key; known here: from, to, radius",
         ),
         (
             "  - polygon: [[0, 30], [5, 30], [0, 35]]",
             "  - name: nothing",
-            "s.yaml:14:5: obstacles[1]: an obstacle is either a circle or a polygon; found neither",
+            "s.yaml:14:5: obstacles[1]: an obstacle is one of circle, segment, polygon; found none",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",
@@ -274,7 +311,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "name: post",
             "moves: 1",
-            "s.yaml:13:5: obstacles[0].moves: no such key; known here: circle, polygon, name, motion, greatest_speed, \
+            "s.yaml:13:5: obstacles[0].moves: no such key; known here: circle, segment, polygon, name, motion, greatest_speed, \
              seen, seen_from, sensing_radius",
         ),
         (
@@ -391,7 +428,7 @@ fn obstacles_that_move_are_read_with_their_units() {
         ("motion: {velocity: [1, 0]}, seen_from: 3", "seen_from: found 3; allowed: only beside seen: false"),
         (
             "motion: {velocity: [1, 0]}, speed: 3",
-            "speed: no such key; known here: circle, polygon, name, motion, greatest_speed, seen, seen_from, sensing_radius",
+            "speed: no such key; known here: circle, segment, polygon, name, motion, greatest_speed, seen, seen_from, sensing_radius",
         ),
         (
             "motion: {waypoints: [{time: 1, shift: [0, 0]}, {time: 1, shift: [1, 0]}]}",

@@ -16,6 +16,7 @@ arm:
 grid: {x: [-50, 50], y: [-40, 40], step: 1}
 obstacles:
   - circle: {center: [22, 22], radius: 5}
+  - segment: {from: [-22, 22], to: [-22, 10], radius: 3}
 tasks:
   first: {start: [40, 10], goal: [30, 10], posture: any}
 ";
@@ -62,6 +63,7 @@ fn it_bounds_numbers_where_the_parser_does() {
         ("/$defs/joint/properties/jerk", "jerk", "jerk: 90"),
         ("/$defs/grid/properties/step", "step", "step: 1"),
         ("/$defs/circle/properties/radius", "radius", "radius: 5"),
+        ("/$defs/segment/properties/radius", "radius", "radius: 3"),
         ("/$defs/arm/properties/half_width", "half_width", "half_width: 2"),
     ] {
         let bounded = schema.pointer(pointer).unwrap();
@@ -83,8 +85,9 @@ fn it_counts_as_the_parser_does() {
     let count = |pointer: &str| schema.pointer(pointer).unwrap().as_u64().unwrap() as usize;
     let circle = "  - circle: {center: [22, 22], radius: 5}\n";
     let most = count("/properties/obstacles/maxItems");
-    assert_eq!(problem(circle, &circle.repeat(most)), None);
-    assert!(problem(circle, &circle.repeat(most + 1)).is_some());
+    // The segment is one of them.
+    assert_eq!(problem(circle, &circle.repeat(most - 1)), None);
+    assert!(problem(circle, &circle.repeat(most)).is_some());
 
     let tasks = |count: usize| {
         (0..count)
@@ -100,6 +103,14 @@ fn it_counts_as_the_parser_does() {
     let point = "circle: {center: [22, 22], radius: 5}";
     assert_eq!(problem(point, "polygon: [[0, 0], [1, 0], [0, 1]]"), None);
     assert!(problem(point, "polygon: [[0, 0], [1, 0]]").is_some());
+    let shapes = schema.pointer("/$defs/obstacle/oneOf").unwrap().as_array().unwrap();
+    let shapes: Vec<&str> = shapes.iter().map(|shape| shape["required"][0].as_str().unwrap()).collect();
+    let Some(Problem::OneShape { known, found: "none" }) = problem(point, "name: none") else {
+        panic!("no shape at all")
+    };
+    assert_eq!(shapes, known);
+    assert_eq!(schema.pointer("/$defs/segment/properties/radius/default"), Some(&Value::from(0)));
+    assert_eq!(problem(", radius: 3", ""), None);
 }
 
 #[test]

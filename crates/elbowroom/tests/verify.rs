@@ -11,7 +11,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use build::{circle, polygon};
 use elbowroom::arm::{Joint, MotionLimits};
-use elbowroom::scene::{Obstacle, Scene, SceneProblem};
+use elbowroom::geometry::{Point, Shape, ShapeError};
+use elbowroom::scene::{Obstacle, Scene};
 use elbowroom::trajectory::{Motion, Piece, State};
 use elbowroom::verify::{
     Against, FLOOR, Quantity, Rate, Trajectory, Verdict, VerifySettings, Violation, verify, verify_until,
@@ -300,9 +301,9 @@ fn huge_numbers_are_refused_rather_than_passed() {
     }
     // No scene has one that is larger, or no number at all.
     for radius in [1e9, 1e200, f64::INFINITY, f64::NAN, f64::NEG_INFINITY] {
-        for odd in [circle(0.0, 2.5 + radius, radius), circle(radius, 0.0, 1.0), circle(9.0, 9.0, radius)] {
-            let refused = scene(0.0, Vec::new()).with_obstacles(vec![odd]);
-            assert!(matches!(refused, Err(SceneProblem::Circle { obstacle: 0, .. })), "{radius} {refused:?}");
+        let odd = [([0.0, 2.5 + radius], radius), ([radius, 0.0], 1.0), ([9.0, 9.0], radius)];
+        for odd in odd.map(|([x, y], radius)| Shape::circle(Point::new(x, y), radius)) {
+            assert!(matches!(odd, Err(ShapeError::Circle { .. })), "{radius} {odd:?}");
         }
     }
     for (c, duration) in

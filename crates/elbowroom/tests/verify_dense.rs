@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 use build::{circle, polygon};
 use elbowroom::arm::{Arm, Joint, JointLimits};
 use elbowroom::geometry::Point;
-use elbowroom::scene::{Scene, Shape};
+use elbowroom::scene::Scene;
 use elbowroom::trajectory::{Motion, durations_by_length, quintic_through, vias_at};
 use elbowroom::verify::{Against, FLOOR, Verdict, VerifySettings, Violation, verify};
 
@@ -76,7 +76,8 @@ fn goes_round(point: P, vertices: &[P]) -> bool {
 
 enum JudgeShape {
     Disc(P, f64),
-    Polygon(Vec<P>),
+    /// A core of two vertices or more, and how far from it the shape ends.
+    Polygon(Vec<P>, f64),
 }
 
 struct DenseJudge {
@@ -94,9 +95,9 @@ fn sample_time(motion: &Motion, i: usize) -> f64 {
 
 impl DenseJudge {
     fn new(scene: &Scene) -> Self {
-        let shapes = scene.obstacles().iter().map(|obstacle| match &obstacle.shape {
-            Shape::Circle(c) => JudgeShape::Disc([c.center.x, c.center.y], c.radius),
-            Shape::Polygon(p) => JudgeShape::Polygon(p.vertices().iter().map(|v| [v.x, v.y]).collect()),
+        let shapes = scene.obstacles().iter().map(|obstacle| match obstacle.shape.vertices() {
+            [center] => JudgeShape::Disc([center.x, center.y], obstacle.shape.radius()),
+            core => JudgeShape::Polygon(core.iter().map(|v| [v.x, v.y]).collect(), obstacle.shape.radius()),
         });
         Self::among(scene.arm(), shapes.collect())
     }
@@ -134,11 +135,13 @@ impl DenseJudge {
                 let s = ((r[0] * d[0] + r[1] * d[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
                 norm([r[0] - s * d[0], r[1] - s * d[1]]) - radius
             }
-            JudgeShape::Polygon(vertices) => {
+            JudgeShape::Polygon(vertices, radius) => {
                 let edges = (0..vertices.len()).map(|i| [vertices[i], vertices[(i + 1) % vertices.len()]]);
                 let outside = edges.map(|edge| segment_distance(axis, edge)).fold(f64::INFINITY, f64::min);
                 // No polygon here reaches 0.3 m from its middle, so nothing farther than that from its edges is inside.
-                if outside > 0.0 && outside < 0.3 && goes_round(axis[0], vertices) { 0.0 } else { outside }
+                let inside =
+                    vertices.len() > 2 && outside > 0.0 && outside < 0.3 && goes_round(axis[0], vertices);
+                if inside { -radius } else { outside - radius }
             }
         };
         distance - self.half_width
@@ -222,7 +225,7 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
         .map(|_| {
             let (way, angle) = (numbers.between(0.15, 1.2) * reach, numbers.between(-PI, PI));
             let [x, y] = [base.x + way * angle.cos(), base.y + way * angle.sin()];
-            match numbers.below(4) {
+            match numbers.below(6) {
                 0 => circle(x, y, 5e-5),
                 1 => circle(x, y, numbers.between(0.01, 0.2)),
                 2 => {
@@ -237,7 +240,12 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
                         [x + v[0], y + v[1]],
                     ])
                 }
-                _ => {
+                3 => {
+                    let (tilt, long) = (numbers.between(0.0, PI), numbers.between(0.05, 0.3));
+                    let radius = [0.0, 5e-5, 0.03][numbers.below(3)];
+                    build::segment([[x, y], [x + tilt.cos() * long, y + tilt.sin() * long]], radius)
+                }
+                kind => {
                     let corners = 3 + numbers.below(6);
                     let star: Vec<P> = (0..corners)
                         .map(|i| {
@@ -246,7 +254,7 @@ fn random_scene(numbers: &mut Numbers) -> Scene {
                             [x + radius * turn.cos(), y + radius * turn.sin()]
                         })
                         .collect();
-                    polygon(&star)
+                    if kind == 4 { build::rounded(&star, 0.02) } else { polygon(&star) }
                 }
             }
         })

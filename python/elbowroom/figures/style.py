@@ -4,6 +4,7 @@ scene.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -13,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle as CirclePatch
 from matplotlib.patches import Polygon as PolygonPatch
 
-from elbowroom.scene import Circle, Scene
+from elbowroom.scene import Outline, Pair, Scene
 
 CM = 100.0
 """Pictures show centimetres, as the paper does."""
@@ -36,6 +37,12 @@ COLOURS = (PATH, START, LINK_2, SMOOTHED, GOAL, LINK_1, "#999999")
 
 DASHES = ("-", "--", ":", "-.")
 """To go with colours: seven of those and four of these make 28 kinds of lines."""
+
+WALL = 1.2
+"""Width of the line that stands for a wall without thickness (points)."""
+
+ARC = math.radians(5.0)
+"""Turn from one corner to the next where corners stand for something round."""
 
 LONGEST_LEGEND = 16
 """A legend with more entries gets another column."""
@@ -66,16 +73,36 @@ def draw_obstacles(axes: Axes, scene: Scene) -> None:
     """Draw the obstacles of ``scene``."""
     for i, obstacle in enumerate(scene.obstacles):
         label = "obstacle" if i == 0 else None
-        if isinstance(obstacle, Circle):
-            center = (obstacle.center[0] * CM, obstacle.center[1] * CM)
+        points, radius = obstacle.outline
+        if len(points) == 1:
+            center = (points[0][0] * CM, points[0][1] * CM)
             axes.add_patch(
-                CirclePatch(center, obstacle.radius * CM, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
+                CirclePatch(center, radius * CM, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
             )
         else:
-            corners = [(x * CM, y * CM) for x, y in obstacle.vertices]
-            axes.add_patch(
-                PolygonPatch(corners, closed=True, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
-            )
+            corners = [(x * CM, y * CM) for x, y in corners_of(obstacle.outline)]
+            look = {"edgecolor": OBSTACLE, "linewidth": WALL} if len(corners) == 2 else {"edgecolor": "none"}
+            axes.add_patch(PolygonPatch(corners, closed=True, facecolor=OBSTACLE, zorder=3, label=label, **look))
+
+
+def corners_of(outline: Outline) -> Sequence[Pair]:
+    """Return the corners of a shape that is more than a disc (m), with arcs where a radius rounds it."""
+    points, radius = outline
+    if radius == 0.0:
+        return points
+    twice_area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, [*points[1:], points[0]], strict=True))
+    points = list(points) if twice_area >= 0.0 else list(reversed(points))
+    corners = []
+    for i, (x, y) in enumerate(points):
+        before, after = points[i - 1], points[(i + 1) % len(points)]
+        heading = math.atan2(y - before[1], x - before[0])
+        turn = math.remainder(math.atan2(after[1] - y, after[0] - x) - heading, math.tau)
+        # Round the end of a line it goes the outer way.
+        turn = math.pi if len(points) == 2 else turn
+        steps = max(math.ceil(abs(turn) / ARC), 1)
+        angles = [heading - math.pi / 2.0 + turn * k / steps for k in range(steps + 1)]
+        corners += [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
+    return corners
 
 
 def mark_ends(axes: Axes, start: tuple[float, float], goal: tuple[float, float]) -> None:

@@ -16,13 +16,13 @@ from matplotlib.patches import Polygon as PolygonPatch
 
 from elbowroom.figures.animation import FRAMES_PER_SECOND, MOST_FRAMES
 from elbowroom.figures.links import DrawnArm, link_legend
-from elbowroom.figures.style import CM, INK, PATH, SMOOTHED, legend_beside, mark_base, mark_ends, plane
+from elbowroom.figures.style import CM, INK, PATH, SMOOTHED, corners_of, legend_beside, mark_base, mark_ends, plane
 from elbowroom.follow.courses import middle, shifts
 from elbowroom.follow.followed import Followed, Step
 from elbowroom.follow.goal import Goal
 from elbowroom.known import Known, Sighting
 from elbowroom.samples import Floats, sampled
-from elbowroom.scene import Circle, ObstacleMotion, Polygon
+from elbowroom.scene import Obstacle, ObstacleMotion
 
 AHEAD = 1.0
 """Arrows show where an obstacle goes within so long (s)."""
@@ -43,14 +43,15 @@ END = 20
 class _DrawnMover:
     """An obstacle that moves, as large as it is: filled once it is seen, with what is known of its way."""
 
-    def __init__(self, axes: Axes, obstacle: Circle | Polygon) -> None:
+    def __init__(self, axes: Axes, obstacle: Obstacle) -> None:
         self.axes, self.obstacle = axes, obstacle
         look = {"edgecolor": INK, "linewidth": 1.2, "zorder": 3.2}
-        if isinstance(obstacle, Circle):
+        points, self.radius = obstacle.outline
+        if len(points) == 1:
             self.corners: Floats = np.zeros((0, 2))
-            self.outline: CirclePatch | PolygonPatch = CirclePatch((0.0, 0.0), obstacle.radius * CM, **look)
+            self.outline: CirclePatch | PolygonPatch = CirclePatch((0.0, 0.0), self.radius * CM, **look)
         else:
-            self.corners = np.array(obstacle.vertices)
+            self.corners = np.array(corners_of(obstacle.outline))
             self.outline = PolygonPatch(np.zeros((1, 2)), closed=True, **look)
         self.arrow = FancyArrowPatch(
             (0, 0),
@@ -88,9 +89,8 @@ class _DrawnMover:
         self.arrow.set_positions((place[0], place[1]), (place[0] + way[0] * CM, place[1] + way[1] * CM))
         self.doubt.set_visible(isinstance(known, Sighting))
         if isinstance(known, Sighting):
-            size = self.obstacle.radius if isinstance(self.obstacle, Circle) else 0.0
             self.doubt.set_center((place[0], place[1]))
-            self.doubt.set_radius((size + (known.greatest_speed or 0.0) * AHEAD) * CM)
+            self.doubt.set_radius((self.radius + (known.greatest_speed or 0.0) * AHEAD) * CM)
         artists: list[Artist] = [self.outline, self.arrow, self.doubt]
         if self.name is not None:
             # Not where the arrow is, nor where the obstacle is out of sight.

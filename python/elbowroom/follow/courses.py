@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from elbowroom.samples import Floats
-from elbowroom.scene import Circle, ObstacleMotion, Pair, Polygon, Scene
+from elbowroom.scene import Obstacle, ObstacleMotion, Pair, Scene
 
 
 def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
@@ -23,19 +23,14 @@ def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
     return np.zeros((len(t), 2))
 
 
-def shifted(obstacle: Circle | Polygon, by: Pair) -> Circle | Polygon:
+def shifted(obstacle: Obstacle, by: Pair) -> Obstacle:
     """Return ``obstacle`` standing still, shifted by so much (m)."""
-    x, y = by
-    if isinstance(obstacle, Circle):
-        return replace(obstacle, center=(obstacle.center[0] + x, obstacle.center[1] + y), motion=None)
-    return replace(obstacle, vertices=[(vx + x, vy + y) for vx, vy in obstacle.vertices], motion=None)
+    return replace(obstacle.shifted(by), motion=None)
 
 
-def middle(obstacle: Circle | Polygon) -> Floats:
+def middle(obstacle: Obstacle) -> Floats:
     """Return the middle of ``obstacle`` where the scene has it (m)."""
-    if isinstance(obstacle, Circle):
-        return np.array(obstacle.center)
-    corners = np.array(obstacle.vertices)
+    corners = np.array(obstacle.outline[0])
     centre: Floats = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
     return centre
 

@@ -2,9 +2,9 @@ use std::f64::consts::TAU;
 use std::time::Instant;
 
 use elbowroom::free_space::{FreeSpace, configurations};
-use elbowroom::geometry::{Circle, Point, Polygon, Vector};
+use elbowroom::geometry::{Point, Shape, Vector};
 use elbowroom::online::{NoRoute, Roadmap, Route, Upkeep};
-use elbowroom::scene::{Obstacle, Scene, Shape, Task};
+use elbowroom::scene::{Obstacle, Scene, Task};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 use serde_json::{Value, json};
@@ -72,8 +72,7 @@ fn follow(
     let [_, reach] = scene.arm().reach();
     while obstacles.len() < moving {
         let away = Vector::polar(reach * (0.3 + 0.7 * unit()), TAU * unit());
-        let disc = Circle::new(scene.arm().base() + away, RADIUS)?;
-        obstacles.push(Obstacle::still(Shape::Circle(disc)));
+        obstacles.push(Obstacle::still(Shape::circle(scene.arm().base() + away, RADIUS)?));
     }
     let scene = scene.with_obstacles(obstacles)?;
     let mut headings: Vec<f64> = (0..moving).map(|_| TAU * unit()).collect();
@@ -91,7 +90,7 @@ fn follow(
                 continue;
             }
             *heading += 0.6 * (unit() - 0.5);
-            let moved = shifted(&obstacles[index], Vector::polar(roadmap.scene().grid().step(), *heading))?;
+            let moved = shifted(&obstacles[index], Vector::polar(roadmap.scene().grid().step(), *heading));
             if middle(&moved).distance(first_at[index]) > WANDER {
                 *heading += TAU / 2.0;
             } else {
@@ -152,7 +151,7 @@ pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
             let which = (index / 2) % home.len();
             if index % 2 == 0 {
                 let way = Vector::polar(scene.grid().step(), TAU * 0.618 * (index / 2) as f64);
-                obstacles[which] = shifted(&obstacles[which], way)?;
+                obstacles[which] = shifted(&obstacles[which], way);
             }
             let now = scene.with_obstacles(obstacles.clone())?;
             timed(&mut repairs, || {
@@ -211,18 +210,9 @@ pub(crate) fn spread(mut times: Vec<f64>) -> Value {
 }
 
 fn middle(obstacle: &Obstacle) -> Point {
-    match &obstacle.shape {
-        Shape::Circle(circle) => circle.center,
-        Shape::Polygon(polygon) => polygon.vertices()[0],
-    }
+    obstacle.shape.vertices()[0]
 }
 
-fn shifted(obstacle: &Obstacle, by: Vector) -> Result<Obstacle, Box<dyn std::error::Error>> {
-    let shape = match &obstacle.shape {
-        Shape::Circle(circle) => Shape::Circle(Circle::new(circle.center + by, circle.radius)?),
-        Shape::Polygon(polygon) => {
-            Shape::Polygon(Polygon::new(polygon.vertices().iter().map(|&v| v + by).collect())?)
-        }
-    };
-    Ok(Obstacle { shape, ..obstacle.clone() })
+fn shifted(obstacle: &Obstacle, by: Vector) -> Obstacle {
+    Obstacle { shape: obstacle.shape.shifted(by), ..obstacle.clone() }
 }

@@ -1,6 +1,6 @@
 use elbowroom::free_space::FreeSpace;
-use elbowroom::geometry::{Circle, Point, Polygon};
-use elbowroom::scene::{Place, Scene, Shape, TwoLinkError};
+use elbowroom::geometry::Vector;
+use elbowroom::scene::{Place, Scene, TwoLinkError};
 use elbowroom::search::{Graph, Progress, Until};
 use serde_json::json;
 
@@ -61,15 +61,8 @@ fn union(scene: &Scene) -> Result<Lattice, TwoLinkError> {
 
 /// The scene with one obstacle a grid step to the right.
 fn moved(scene: &Scene, obstacle: usize) -> Result<Scene, Box<dyn std::error::Error>> {
-    let right = |point: Point| Point::new(point.x + scene.grid().step(), point.y);
     let mut obstacles = scene.obstacles().to_vec();
-    let shape = match &obstacles[obstacle].shape {
-        Shape::Circle(circle) => Shape::Circle(Circle::new(right(circle.center), circle.radius)?),
-        Shape::Polygon(polygon) => {
-            Shape::Polygon(Polygon::new(polygon.vertices().iter().copied().map(right).collect())?)
-        }
-    };
-    obstacles[obstacle].shape = shape;
+    obstacles[obstacle].shape = obstacles[obstacle].shape.shifted(Vector::new(scene.grid().step(), 0.0));
     Ok(scene.with_obstacles(obstacles)?)
 }
 

@@ -3,10 +3,10 @@ use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
 
 use elbowroom::free_space::configurations;
-use elbowroom::geometry::{Circle, Segment, Vector};
+use elbowroom::geometry::{Segment, Shape, Vector};
 use elbowroom::online::{Decision, KnownMotion, Replanner, World};
 use elbowroom::path::link_clearances;
-use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Shape, Sight, Waypoint};
+use elbowroom::scene::{Course, Obstacle, ObstacleMotion, Place, Scene, Sight, Waypoint};
 use elbowroom::trajectory::State;
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -167,7 +167,7 @@ fn among_discs(scene: &Scene, run: &Run) -> Result<Scene, Box<dyn Error>> {
             at = to;
         }
         let motion = ObstacleMotion::new(Course::Waypoints(waypoints), Sight::Always, None)?;
-        let disc = Shape::Circle(Circle::new(from, RADIUS)?);
+        let disc = Shape::circle(from, RADIUS)?;
         obstacles.push(Obstacle { motion: Some(motion), ..Obstacle::still(disc) });
     }
     Ok(scene.with_obstacles(obstacles)?)

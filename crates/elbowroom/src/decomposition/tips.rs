@@ -1,8 +1,8 @@
 use super::sew::{Sewn, Stretch, sew};
 use super::slabs::{Cutter, Walls};
 use crate::free_space::merged;
-use crate::geometry::{Point, Segment, Vector};
-use crate::scene::{Shape, TwoLinkScene};
+use crate::geometry::{Point, Segment, Shape, Vector};
+use crate::scene::TwoLinkScene;
 use crate::verify::innermost_reach;
 
 /// How wide the slabs are that are begun with, as a share of the reach.
@@ -24,12 +24,7 @@ pub(crate) fn tip_chart(
         let mut found = Vec::new();
         found.extend(chord(base, hole, x));
         for obstacle in scene.obstacles() {
-            match &obstacle.shape {
-                Shape::Circle(circle) => {
-                    found.extend(chord(circle.center, circle.radius + arm.half_width(), x))
-                }
-                Shape::Polygon(polygon) => of_polygon(polygon.vertices(), arm.half_width(), x, &mut found),
-            }
+            add_near(&obstacle.shape, arm.half_width(), x, &mut found);
         }
         found.retain_mut(|[from, to]| {
             (*from, *to) = (from.max(range[0]), to.min(range[1]));
@@ -52,17 +47,16 @@ fn chord(center: Point, radius: f64, x: f64) -> Option<[f64; 2]> {
     (squared > 0.0).then(|| [center.y - squared.sqrt(), center.y + squared.sqrt()])
 }
 
-/// Where the line at `x` runs within `width` of a polygon.
-fn of_polygon(vertices: &[Point], width: f64, x: f64, found: &mut Vec<[f64; 2]>) {
-    let mut inside: Vec<f64> = Vec::new();
-    let mut a = vertices[vertices.len() - 1];
-    for &b in vertices {
-        inside.extend(crossing(Segment::new(a, b), x));
-        if width > 0.0 {
-            found.extend(chord(b, width, x));
-            let along = b - a;
+/// Where the line at `x` runs within `width` of a shape: around the vertices of its core, along its edges, and in it.
+fn add_near(shape: &Shape, width: f64, x: f64, found: &mut Vec<[f64; 2]>) {
+    let width = shape.radius() + width;
+    if width > 0.0 {
+        found.extend(shape.vertices().iter().filter_map(|&vertex| chord(vertex, width, x)));
+        // An edge too short for its square is as good as its ends.
+        let edges = shape.edges().map(|edge| (edge, edge.b - edge.a));
+        for (edge, along) in edges.filter(|(_, along)| along.length_squared() > f64::MIN_POSITIVE) {
             let aside = Vector::new(-along.y, along.x) * (width / along.length());
-            let corners = [a + aside, b + aside, b + -aside, a + -aside];
+            let corners = [edge.a + aside, edge.b + aside, edge.b + -aside, edge.a + -aside];
             let at: Vec<f64> =
                 (0..4).filter_map(|i| crossing(Segment::new(corners[i], corners[(i + 1) % 4]), x)).collect();
             if let ([first, ..], true) = (at.as_slice(), at.len() > 1) {
@@ -72,10 +66,12 @@ fn of_polygon(vertices: &[Point], width: f64, x: f64, found: &mut Vec<[f64; 2]>)
                 ]);
             }
         }
-        a = b;
     }
-    inside.sort_by(f64::total_cmp);
-    found.extend(inside.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+    if shape.has_inside() {
+        let mut inside: Vec<f64> = shape.edges().filter_map(|edge| crossing(edge, x)).collect();
+        inside.sort_by(f64::total_cmp);
+        found.extend(inside.chunks_exact(2).map(|pair| [pair[0], pair[1]]));
+    }
 }
 
 /// Where the line at `x` crosses an edge; one of its ends belongs to it.

@@ -1,7 +1,7 @@
 use super::stances::{Lanes, Links, squared_distance};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Point, Segment, Shape};
 
-/// The edges of a polygon, made ready for many looks; positions are seen from the base.
+/// The edges of a shape's core, made ready for many looks; positions are seen from the base.
 pub(super) struct Boundary {
     edges: Vec<Edge>,
     /// A cross product up to which rounding may decide on which side of a line a point lies (m²).
@@ -22,27 +22,20 @@ struct Edge {
 }
 
 impl Boundary {
-    pub(super) fn new(polygon: &Polygon, base: Point, rounding: f64) -> Self {
-        let edges = polygon.edges().map(|edge| {
+    pub(super) fn new(shape: &Shape, base: Point, rounding: f64) -> Self {
+        // Of each edge the first end is looked at: a line between two points is one there and one back.
+        let back = shape.edges().filter(|_| !shape.has_inside()).map(|edge| Segment::new(edge.b, edge.a));
+        let edges = shape.edges().chain(back).map(|edge| {
             let (from, to, way) = (edge.a - base, edge.b - base, edge.b - edge.a);
             let squared = way.length_squared();
             // An edge too short for its square is as good as its first end.
             let inverse_squared = if squared > f64::MIN_POSITIVE { 1.0 / squared } else { 0.0 };
             let slope = way.x / (to.y - from.y);
-            Edge { x: from.x, y: from.y, dx: way.x, dy: way.y, end_y: to.y, inverse_squared, slope }
+            // A line alone has nothing inside: no one is at the height of an edge that ends as high as it begins.
+            let end_y = if shape.has_inside() { to.y } else { from.y };
+            Edge { x: from.x, y: from.y, dx: way.x, dy: way.y, end_y, inverse_squared, slope }
         });
         Self { edges: edges.collect(), rounding }
-    }
-
-    /// A circle around `polygon`: the middle of its bounding box, and the farthest corner.
-    pub(super) fn circle_around(polygon: &Polygon) -> (Point, f64) {
-        let (mut least, mut most) = (polygon.vertices()[0], polygon.vertices()[0]);
-        for v in polygon.vertices() {
-            least = Point::new(least.x.min(v.x), least.y.min(v.y));
-            most = Point::new(most.x.max(v.x), most.y.max(v.y));
-        }
-        let center = Point::new((least.x + most.x) / 2.0, (least.y + most.y) / 2.0);
-        (center, polygon.vertices().iter().map(|v| v.distance(center)).fold(0.0, f64::max))
     }
 
     /// For each link the square of the least distance between an end of it, or of an edge, and the other (m²):

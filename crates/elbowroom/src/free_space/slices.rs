@@ -2,13 +2,14 @@
 //! of the first, in closed form.
 //!
 //! A link that turns about its start meets a disc in one arc of directions, and a line in one: the union over all
-//! discs and lines that an obstacle's outline is made of is all that is forbidden, for a link that begins outside.
+//! discs and lines that the outline of what must not be touched is made of is all that is forbidden, for a link that
+//! begins outside. Discs lie around the core's vertices, lines on both sides of its edges.
 
 use std::f64::consts::{PI, TAU};
 
 use crate::arm::TwoLink;
-use crate::geometry::{Point, Segment, Vector, angle_difference};
-use crate::scene::{Shape, TwoLinkScene};
+use crate::geometry::{Point, Segment, Shape, Vector, angle_difference};
+use crate::scene::{Obstacle, TwoLinkScene};
 
 /// Gaps between arcs up to this (rad) are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -17,15 +18,9 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub struct Slices<'a> {
     arm: TwoLink,
-    bodies: Vec<Body<'a>>,
-    /// How near to an obstacle's outline a link's centre line may not come (m).
+    obstacles: &'a [Obstacle],
+    /// How near to an obstacle a link's centre line may not come (m).
     width: f64,
-}
-
-#[derive(Debug, Clone)]
-enum Body<'a> {
-    Disc { center: Point, radius: f64 },
-    Polygon { vertices: &'a [Point] },
 }
 
 /// Directions from `start` counter-clockwise over `width` (rad).
@@ -38,11 +33,7 @@ struct Arc {
 impl<'a> Slices<'a> {
     /// The slices of `scene`, with links that must stay `margin` (m) clear.
     pub fn new(scene: TwoLinkScene<'a>, margin: f64) -> Self {
-        let bodies = scene.obstacles().iter().map(|obstacle| match &obstacle.shape {
-            Shape::Circle(circle) => Body::Disc { center: circle.center, radius: circle.radius },
-            Shape::Polygon(polygon) => Body::Polygon { vertices: polygon.vertices() },
-        });
-        Self { arm: *scene.arm(), bodies: bodies.collect(), width: scene.arm().half_width() + margin }
+        Self { arm: *scene.arm(), obstacles: scene.obstacles(), width: scene.arm().half_width() + margin }
     }
 
     /// Where in `range` (rad) the first joint makes the first link touch an obstacle: intervals in order that do not
@@ -60,8 +51,8 @@ impl<'a> Slices<'a> {
 
     fn forbidden(&self, pivot: Point, length: f64, carrier: f64, range: [f64; 2]) -> Vec<[f64; 2]> {
         let mut found: Vec<[f64; 2]> = Vec::new();
-        for body in &self.bodies {
-            self.arcs(body, pivot, length, &mut |arc| {
+        for obstacle in self.obstacles {
+            self.arcs(&obstacle.shape, pivot, length, &mut |arc| {
                 if arc.width >= TAU {
                     found.push(range);
                     return;
@@ -78,38 +69,34 @@ impl<'a> Slices<'a> {
         merged(found)
     }
 
-    /// Calls `each` with the arcs of directions in which a link that begins at `pivot` comes too near to `body`.
-    fn arcs(&self, body: &Body<'_>, pivot: Point, length: f64, each: &mut impl FnMut(Arc)) {
+    /// Calls `each` with the arcs of directions in which a link that begins at `pivot` comes too near to `shape`.
+    fn arcs(&self, shape: &Shape, pivot: Point, length: f64, each: &mut impl FnMut(Arc)) {
         let all = Arc { start: -PI, width: TAU };
-        match *body {
-            Body::Disc { center, radius } => {
-                each_some(disc(pivot, length, center, radius + self.width), each)
+        let width = shape.radius() + self.width;
+        let mut inside = false;
+        for edge in shape.edges() {
+            inside ^= shape.has_inside() && passes_right_of(edge, pivot);
+            if edge.distance_to_point(pivot) <= width {
+                each(all);
+                return;
             }
-            Body::Polygon { vertices } => {
-                let edges = (0..vertices.len()).map(|i| {
-                    let before = vertices[(i + vertices.len() - 1) % vertices.len()];
-                    Segment::new(before, vertices[i])
-                });
-                let mut inside = false;
-                for edge in edges {
-                    inside ^= passes_right_of(edge, pivot);
-                    if edge.distance_to_point(pivot) <= self.width {
-                        each(all);
-                        return;
-                    }
-                    let along = edge.b - edge.a;
-                    let aside = Vector::new(-along.y, along.x) * (self.width / along.length());
-                    if self.width > 0.0 {
-                        each_some(disc(pivot, length, edge.b, self.width), each);
-                        let other = Segment::new(edge.a + -aside, edge.b + -aside);
-                        each_some(line(pivot, length, other), each);
-                    }
-                    each_some(line(pivot, length, Segment::new(edge.a + aside, edge.b + aside)), each);
-                }
-                if inside {
-                    each(all);
-                }
+            let along = edge.b - edge.a;
+            // One too short for its square is as good as its ends.
+            if along.length_squared() <= f64::MIN_POSITIVE {
+                continue;
             }
+            let aside = Vector::new(-along.y, along.x) * (width / along.length());
+            if width > 0.0 {
+                let other = Segment::new(edge.a + -aside, edge.b + -aside);
+                each_some(line(pivot, length, other), each);
+            }
+            each_some(line(pivot, length, Segment::new(edge.a + aside, edge.b + aside)), each);
+        }
+        if width > 0.0 {
+            shape.vertices().iter().for_each(|&vertex| each_some(disc(pivot, length, vertex, width), each));
+        }
+        if inside {
+            each(all);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::stances::{Lanes, Links};
 use super::state::CONTACT_FLOOR;
 use crate::arm::TwoLink;
 use crate::geometry::{Point, Vector};
-use crate::scene::{Obstacle, Shape};
+use crate::scene::Obstacle;
 
 /// How near to contact a link is left undecided, as a share of the measures at hand: away from the ends of the reach,
 /// the quick way and the reference differ by less than a tenth of this.
@@ -17,16 +17,16 @@ const GREATEST: f64 = 1e12;
 /// An obstacle made ready for many looks; positions are seen from the base.
 #[derive(Clone)]
 pub(super) struct Target {
-    /// Of a circle around all of it: its middle (m).
+    /// Of a circle around all of its core: its middle (m).
     x: f64,
     y: f64,
     /// The circle's radius (m); for a disc 0.
     radius: f64,
-    /// The centre line of a link touches it at this distance (m): of a disc from its middle, else from the boundary.
+    /// The centre line of a link touches it at this distance from the core (m).
     pub(super) contact: f64,
     /// How much of that distance rounding may decide (m).
     pub(super) rounding: f64,
-    /// Of a polygon.
+    /// Of a core that is more than a point.
     boundary: Option<Shared<Boundary>>,
 }
 
@@ -35,13 +35,8 @@ impl Target {
     pub(super) fn new(arm: &TwoLink, obstacle: &Obstacle, margin: f64) -> Self {
         let base = arm.base();
         let floor = arm.half_width() + CONTACT_FLOOR + margin;
-        let (center, radius, contact, polygon) = match &obstacle.shape {
-            Shape::Circle(circle) => (circle.center, 0.0, circle.radius + floor, None),
-            Shape::Polygon(polygon) => {
-                let (center, radius) = Boundary::circle_around(polygon);
-                (center, radius, floor, Some(polygon))
-            }
-        };
+        let shape = &obstacle.shape;
+        let ((center, radius), contact) = (shape.circle_around_core(), shape.radius() + floor);
         let Vector { x, y } = center - base;
         let spread = arm.reach()[1] + libm::hypot(x, y) + radius + contact.abs();
         let rounding = if spread < GREATEST {
@@ -49,8 +44,8 @@ impl Target {
         } else {
             f64::INFINITY
         };
-        let boundary =
-            polygon.map(|polygon| Shared::new(Boundary::new(polygon, base, 8.0 * rounding * spread)));
+        let has_lines = shape.vertices().len() > 1;
+        let boundary = has_lines.then(|| Shared::new(Boundary::new(shape, base, 8.0 * rounding * spread)));
         Self { x, y, radius, contact, rounding, boundary }
     }
 

@@ -1,13 +1,12 @@
-//! Points, segments, circles, polygons and angles of the plane.
+//! Points, segments, shapes and angles of the plane.
 
 mod angle;
-mod circle;
 mod point;
 mod polygon;
 mod segment;
+mod shape;
 
 pub use angle::{angle_difference, wrap_angle};
-pub use circle::{Circle, CircleError};
 pub use point::{Point, Vector};
-pub use polygon::{MAX_VERTICES, Polygon, PolygonError};
 pub use segment::Segment;
+pub use shape::{MAX_VERTICES, Shape, ShapeError};

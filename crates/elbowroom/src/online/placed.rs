@@ -1,7 +1,7 @@
 //! Obstacles that move, put somewhere to stand still.
 
-use crate::geometry::{Circle, Vector};
-use crate::scene::{Obstacle, Scene, Shape};
+use crate::geometry::Vector;
+use crate::scene::{Obstacle, Scene};
 
 /// The shift (m) of an obstacle that is not there: farther than any arm reaches.
 pub(super) const AWAY: Vector = Vector::new(1e7, 1e7);
@@ -11,7 +11,7 @@ pub(super) const AWAY: Vector = Vector::new(1e7, 1e7);
 pub(super) fn placed(scene: &Scene, shift: impl Fn(usize, &Obstacle) -> Option<Vector>) -> Vec<Obstacle> {
     let place = |(i, obstacle): (usize, &Obstacle)| {
         let shape = match shift(i, obstacle) {
-            Some(shift) => shifted(&obstacle.shape, shift),
+            Some(shift) => obstacle.shape.shifted(shift),
             None => obstacle.shape.clone(),
         };
         Obstacle { name: obstacle.name.clone(), shape, motion: None }
@@ -25,12 +25,4 @@ pub(super) fn still(scene: &Scene, shift: impl Fn(usize, &Obstacle) -> Option<Ve
     let places = still.obstacles_mut().iter_mut().zip(placed(scene, shift));
     places.for_each(|(obstacle, placed)| *obstacle = placed);
     still
-}
-
-/// `shape` moved by so much (m).
-pub(super) fn shifted(shape: &Shape, by: Vector) -> Shape {
-    match shape {
-        Shape::Circle(circle) => Shape::Circle(Circle { center: circle.center + by, ..*circle }),
-        Shape::Polygon(polygon) => Shape::Polygon(polygon.shifted(by)),
-    }
 }

@@ -2,10 +2,11 @@ use thiserror::Error;
 
 use super::placed::{AWAY, still};
 use crate::free_space::{ChangedCells, FreeSpace};
+use crate::geometry::Shape;
 use crate::path::{JointPath, straight_move_is_free};
 use crate::planners::{ChangingGraph, DstarPlanner, Goal, Kept};
 use crate::planning::{Endpoints, PlanError, Planner, Unwatched};
-use crate::scene::{Obstacle, Scene, SceneProblem, Shape, Task, TwoLinkError};
+use crate::scene::{Obstacle, Scene, SceneProblem, Task, TwoLinkError};
 use crate::search::{Dstar, Graph, Progress, Until};
 
 /// Expansions of D* between two looks at how far the search has to go.

@@ -120,13 +120,13 @@ mod tests {
 
     use super::{Lattice, TURNS, earliest_safe_place};
     use crate::arm::{Arm, Joint, JointLimits, MotionLimits};
-    use crate::geometry::{Circle, Point, Vector};
+    use crate::geometry::{Point, Shape, Vector};
     use crate::grid::Grid;
     use crate::online::placed::still;
     use crate::online::safe_intervals::SafeIntervals;
     use crate::path::link_clearances;
     use crate::random::unit;
-    use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight, Waypoint};
+    use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Sight, Waypoint};
 
     const ROOM: f64 = 0.01;
     const HORIZON: f64 = 20.0;
@@ -156,8 +156,8 @@ mod tests {
                     .collect(),
             );
             let motion = ObstacleMotion::new(course, Sight::Always, None).unwrap();
-            let circle = Circle { center: Point::new(0.0, 0.0) + from, radius: 0.02 + 0.04 * unit() };
-            obstacles.push(Obstacle { motion: Some(motion), ..Obstacle::still(Shape::Circle(circle)) });
+            let circle = Shape::circle(Point::new(0.0, 0.0) + from, 0.02 + 0.04 * unit()).unwrap();
+            obstacles.push(Obstacle { motion: Some(motion), ..Obstacle::still(circle) });
         }
         let start = [1.5 - 3.0 * unit(), 2.0 - 4.0 * unit()];
         (Scene::new(arm, grid, obstacles, Vec::new()).unwrap(), start)

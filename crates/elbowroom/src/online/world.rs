@@ -1,7 +1,7 @@
 use super::known::KnownMotion;
-use super::placed::{placed, shifted};
+use super::placed::placed;
 use crate::geometry::{Point, Vector};
-use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Shape, Sight};
+use crate::scene::{Course, Obstacle, ObstacleMotion, Scene, Sight};
 
 /// A scene in time: where its obstacles are, and what the arm knows of those that move.
 #[derive(Debug, Clone)]
@@ -97,21 +97,15 @@ impl World {
     }
 
     fn center(&self, obstacle: usize) -> Point {
-        match &self.scene.obstacles()[obstacle].shape {
-            Shape::Circle(circle) => circle.center,
-            Shape::Polygon(polygon) => {
-                let vertices = polygon.vertices();
-                let sum =
-                    vertices.iter().fold(Vector::new(0.0, 0.0), |sum, v| sum + (*v - Point::new(0.0, 0.0)));
-                Point::new(0.0, 0.0) + sum * (1.0 / vertices.len() as f64)
-            }
-        }
+        let vertices = self.scene.obstacles()[obstacle].shape.vertices();
+        let sum = vertices.iter().fold(Vector::new(0.0, 0.0), |sum, v| sum + (*v - Point::new(0.0, 0.0)));
+        Point::new(0.0, 0.0) + sum * (1.0 / vertices.len() as f64)
     }
 
     /// Between the arm at `q` and an obstacle shifted by so much (m).
     fn clearance(&self, obstacle: usize, shift: Vector, q: &[f64]) -> f64 {
         let arm = self.scene.arm();
-        let shifted = Obstacle::still(shifted(&self.scene.obstacles()[obstacle].shape, shift));
+        let shifted = self.scene.obstacles()[obstacle].shape.shifted(shift);
         let distances = arm.link_segments(q).map(|link| shifted.distance_to_segment(link));
         distances.map(|distance| distance - arm.half_width()).fold(f64::INFINITY, f64::min)
     }

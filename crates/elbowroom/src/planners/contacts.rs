@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use crate::geometry::{Point, Segment};
-use crate::scene::{Obstacle, Scene, Shape};
+use crate::scene::Scene;
 
 /// What a configuration is like.
 pub(super) struct Look {
@@ -24,7 +24,8 @@ pub(super) struct Contacts<'a> {
 
 impl<'a> Contacts<'a> {
     pub(super) fn new(scene: &'a Scene, margin: f64) -> Self {
-        Self { scene, margin, discs: scene.obstacles().iter().map(disc_around).collect() }
+        let discs = scene.obstacles().iter().map(|obstacle| obstacle.shape.bounding_circle());
+        Self { scene, margin, discs: discs.collect() }
     }
 
     /// By how much links at `q` (rad) come nearer than the margin to what they must keep clear of, summed up over all that
@@ -43,7 +44,7 @@ impl<'a> Contacts<'a> {
             for link in &links {
                 let mut gap = link.distance_to_point(*center) - radius - needed;
                 if gap < 0.0 {
-                    gap = self.signed_distance(obstacle, *link) - needed;
+                    gap = obstacle.shape.signed_distance_within(*link, self.margin) - needed;
                     look.violation += (-gap).max(0.0);
                 }
                 look.gap = look.gap.min(gap);
@@ -64,17 +65,6 @@ impl<'a> Contacts<'a> {
         }
         look
     }
-
-    /// From the obstacle to the link, negative by the depth (m).
-    fn signed_distance(&self, obstacle: &Obstacle, link: Segment) -> f64 {
-        match &obstacle.shape {
-            Shape::Circle(circle) => circle.signed_distance_to_segment(link),
-            Shape::Polygon(polygon) => match polygon.distance_to_segment(link) {
-                distance if distance > 0.0 => distance,
-                _ => -polygon.depth_of_segment(link, self.margin),
-            },
-        }
-    }
 }
 
 /// How far the nearest end of two links is from the other link (m).
@@ -82,19 +72,4 @@ fn nearest_end(a: Segment, b: Segment) -> f64 {
     let of =
         |link: Segment, other: Segment| link.distance_to_point(other.a).min(link.distance_to_point(other.b));
     of(a, b).min(of(b, a))
-}
-
-fn disc_around(obstacle: &Obstacle) -> (Point, f64) {
-    match &obstacle.shape {
-        Shape::Circle(circle) => (circle.center, circle.radius),
-        Shape::Polygon(polygon) => {
-            let corners = polygon.vertices();
-            let ends = |of: fn(&Point) -> f64| {
-                let values = || corners.iter().map(of);
-                (values().fold(f64::INFINITY, f64::min) + values().fold(f64::NEG_INFINITY, f64::max)) / 2.0
-            };
-            let center = Point::new(ends(|p| p.x), ends(|p| p.y));
-            (center, corners.iter().map(|p| p.distance(center)).fold(0.0, f64::max))
-        }
-    }
 }

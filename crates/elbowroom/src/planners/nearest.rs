@@ -1,8 +1,8 @@
 //! The obstacles nearest to the arm, for many configurations.
 
-use crate::geometry::{Circle, Segment};
+use crate::geometry::{Point, Segment};
 use crate::path::CERTIFIED_CLEARANCE;
-use crate::scene::{Shape, TwoLinkScene};
+use crate::scene::TwoLinkScene;
 
 /// Clearances of each link beyond what is to be kept (m), rounded down: from the obstacle nearest to it, and from all
 /// others.
@@ -44,20 +44,26 @@ fn sum(here: f32, there: f32) -> f64 {
 /// The obstacles of a scene, made ready for many looks.
 pub(super) struct Obstacles<'a> {
     scene: TwoLinkScene<'a>,
-    discs: Vec<(u16, Circle)>,
-    polygons: Vec<u16>,
+    discs: Vec<(u16, Disc)>,
+    others: Vec<u16>,
+}
+
+#[derive(Clone, Copy)]
+struct Disc {
+    center: Point,
+    radius: f64,
 }
 
 impl<'a> Obstacles<'a> {
     pub(super) fn of(scene: TwoLinkScene<'a>) -> Self {
-        let (mut discs, mut polygons) = (Vec::new(), Vec::new());
+        let (mut discs, mut others) = (Vec::new(), Vec::new());
         for (index, obstacle) in (0..=u16::MAX).zip(scene.obstacles()) {
-            match obstacle.shape {
-                Shape::Circle(circle) => discs.push((index, circle)),
-                Shape::Polygon(_) => polygons.push(index),
+            match *obstacle.shape.vertices() {
+                [center] => discs.push((index, Disc { center, radius: obstacle.shape.radius() })),
+                _ => others.push(index),
             }
         }
-        Self { scene, discs, polygons }
+        Self { scene, discs, others }
     }
 
     /// What is nearest to the arm at `q`.
@@ -75,8 +81,8 @@ impl<'a> Obstacles<'a> {
                 }
             };
             let to_disc = distance_to_discs(segment);
-            self.discs.iter().for_each(|(index, circle)| look(*index, to_disc(circle)));
-            for &index in &self.polygons {
+            self.discs.iter().for_each(|(index, disc)| look(*index, to_disc(disc)));
+            for &index in &self.others {
                 look(index, self.scene.obstacles()[usize::from(index)].distance_to_segment(segment));
             }
             nearest.obstacle[link] = obstacle;
@@ -87,13 +93,13 @@ impl<'a> Obstacles<'a> {
     }
 }
 
-/// Signed distances from `segment` (m), as exact as [`Circle::signed_distance_to_segment`], without its division.
-fn distance_to_discs(segment: Segment) -> impl Fn(&Circle) -> f64 {
+/// Signed distances from `segment` (m), as exact as `Shape::distance_to_segment`, without its division.
+fn distance_to_discs(segment: Segment) -> impl Fn(&Disc) -> f64 {
     let along = segment.b - segment.a;
     let squared = along.length_squared();
     let inverse = if squared > 0.0 { 1.0 / squared } else { 0.0 };
-    move |circle| {
-        let share = ((circle.center - segment.a).dot(along) * inverse).clamp(0.0, 1.0);
-        (circle.center - (segment.a + along * share)).length_squared().sqrt() - circle.radius
+    move |disc| {
+        let share = ((disc.center - segment.a).dot(along) * inverse).clamp(0.0, 1.0);
+        (disc.center - (segment.a + along * share)).length_squared().sqrt() - disc.radius
     }
 }

@@ -16,8 +16,8 @@ impl Scene {
     /// The scene of these parts.
     ///
     /// # Errors
-    /// [`SceneProblem`] for names that come twice, more parts than can be numbered, a shape or a task's place that is no
-    /// number, or one of another arm.
+    /// [`SceneProblem`] for names that come twice, more parts than can be numbered, a task's place that is no number, or
+    /// one of another arm.
     pub fn new(
         arm: Arm,
         grid: Grid,

@@ -1,14 +1,5 @@
 use super::ObstacleMotion;
-use crate::geometry::{Circle, Polygon, Segment};
-
-/// The shape of an obstacle.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
-    /// A disc.
-    Circle(Circle),
-    /// A simple polygon with its inside.
-    Polygon(Polygon),
-}
+use crate::geometry::{Segment, Shape};
 
 /// Something that the arm must not touch.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,19 +20,12 @@ impl Obstacle {
 
     /// Distance from the obstacle to `segment` (m): 0 or less when they touch.
     pub fn distance_to_segment(&self, segment: Segment) -> f64 {
-        match &self.shape {
-            Shape::Circle(circle) => circle.signed_distance_to_segment(segment),
-            Shape::Polygon(polygon) => polygon.distance_to_segment(segment),
-        }
+        self.shape.distance_to_segment(segment)
     }
 
-    /// Distance from the obstacle to `segment` (m), negative by the depth: how far the segment's innermost point
-    /// lies from the boundary. Slower than [`distance_to_segment`](Self::distance_to_segment) for polygons.
+    /// Distance from the obstacle to `segment` (m), negative by the depth: see [`Shape::signed_distance_to_segment`].
     pub fn signed_distance_to_segment(&self, segment: Segment) -> f64 {
-        match &self.shape {
-            Shape::Circle(circle) => circle.signed_distance_to_segment(segment),
-            Shape::Polygon(polygon) => polygon.signed_distance_to_segment(segment),
-        }
+        self.shape.signed_distance_to_segment(segment)
     }
 }
 

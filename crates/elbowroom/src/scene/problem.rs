@@ -2,9 +2,8 @@ use std::collections::HashSet;
 
 use thiserror::Error;
 
-use super::{Obstacle, Place, Shape, Task};
+use super::{Obstacle, Place, Task};
 use crate::arm::Arm;
-use crate::geometry::{Circle, CircleError};
 
 /// Most obstacles of a scene: a map numbers them in 16 bits.
 pub(super) const MOST_OBSTACLES: usize = 1 << 16;
@@ -45,14 +44,6 @@ pub enum SceneProblem {
         /// The name.
         name: String,
     },
-    /// A circle that is none.
-    #[error("obstacle {}: {error}", obstacle + 1)]
-    Circle {
-        /// Which, from 0.
-        obstacle: usize,
-        /// What is wrong with it.
-        error: CircleError,
-    },
     /// A start or goal with another number of angles than the arm has joints.
     #[error("task '{}': {found} joint angles, the arm has {links} joints", task.escape_debug())]
     Joints {
@@ -80,15 +71,6 @@ pub(super) fn first(arm: &Arm, obstacles: &[Obstacle], tasks: &[Task]) -> Option
     }
     if tasks.len() > MOST_TASKS {
         return Some(SceneProblem::Tasks { found: tasks.len() });
-    }
-    let circles = obstacles.iter().enumerate().filter_map(|(obstacle, part)| match &part.shape {
-        Shape::Circle(circle) => Some((obstacle, circle)),
-        Shape::Polygon(_) => None,
-    });
-    for (obstacle, circle) in circles {
-        if let Err(error) = Circle::new(circle.center, circle.radius) {
-            return Some(SceneProblem::Circle { obstacle, error });
-        }
     }
     let mut names = HashSet::new();
     let mut named = obstacles.iter().filter_map(|obstacle| obstacle.name.as_ref());

@@ -1,7 +1,6 @@
-//! The verifier's own distances: from a link's centre line to discs and polygons.
+//! The verifier's own distances: from a link's centre line to discs, capsules and polygons, rounded or not.
 
-use crate::geometry::Point;
-use crate::scene::Shape;
+use crate::geometry::{Point, Shape};
 
 /// Rounding of a distance as a share of the greatest coordinate it comes from: some sixteen roundings at
 /// most, sine and cosine included, and four times as many for safety.
@@ -21,9 +20,11 @@ pub(super) struct Axis {
     pub(super) length: f64,
 }
 
-/// An obstacle prepared for looking at it many times.
+/// An obstacle prepared for looking at it many times: all that is within a radius of a point, a line or a polygon.
 pub(super) struct Body<'a> {
-    outline: Outline<'a>,
+    core: &'a [Point],
+    /// How far from the core the obstacle ends (m).
+    thickness: f64,
     /// A disc around all of it; for a disc, that disc.
     center: [f64; 2],
     radius: f64,
@@ -31,37 +32,26 @@ pub(super) struct Body<'a> {
     size: f64,
 }
 
-enum Outline<'a> {
-    Disc,
-    Polygon(&'a [Point]),
-}
-
 impl<'a> Body<'a> {
     pub(super) fn new(shape: &'a Shape) -> Self {
-        match shape {
-            Shape::Circle(circle) => {
-                let center = [circle.center.x, circle.center.y];
-                // Not `max`, which would turn a radius that is not a number into one that is.
-                let radius = if circle.radius < 0.0 { 0.0 } else { circle.radius };
-                let size = center[0].abs() + center[1].abs() + radius;
-                Self { outline: Outline::Disc, center, radius, size }
-            }
-            Shape::Polygon(polygon) => {
-                let vertices = polygon.vertices();
-                let mut low = [f64::INFINITY; 2];
-                let mut high = [f64::NEG_INFINITY; 2];
-                for vertex in vertices {
-                    for (axis, v) in [vertex.x, vertex.y].into_iter().enumerate() {
-                        low[axis] = low[axis].min(v);
-                        high[axis] = high[axis].max(v);
-                    }
-                }
-                let center = [0.5 * low[0] + 0.5 * high[0], 0.5 * low[1] + 0.5 * high[1]];
-                let radius = length([high[0] - center[0], high[1] - center[1]]);
-                let size = low.iter().chain(&high).fold(0.0, |most: f64, v| most.max(v.abs())) + radius;
-                Self { outline: Outline::Polygon(vertices), center, radius, size }
+        let (core, thickness) = (shape.vertices(), shape.radius());
+        if let [center] = core {
+            let (center, radius) = ([center.x, center.y], thickness);
+            let size = center[0].abs() + center[1].abs() + radius;
+            return Self { core, thickness, center, radius, size };
+        }
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for vertex in core {
+            for (axis, v) in [vertex.x, vertex.y].into_iter().enumerate() {
+                low[axis] = low[axis].min(v);
+                high[axis] = high[axis].max(v);
             }
         }
+        let center = [0.5 * low[0] + 0.5 * high[0], 0.5 * low[1] + 0.5 * high[1]];
+        let radius = length([high[0] - center[0], high[1] - center[1]]) + thickness;
+        let size = low.iter().chain(&high).fold(0.0, |most: f64, v| most.max(v.abs())) + radius;
+        Self { core, thickness, center, radius, size }
     }
 
     /// The straight line between two points.
@@ -70,7 +60,7 @@ impl<'a> Body<'a> {
         let center = [0.5 * a.x + 0.5 * b.x, 0.5 * a.y + 0.5 * b.y];
         let radius = length([b.x - center[0], b.y - center[1]]);
         let size = [a.x, a.y, b.x, b.y].into_iter().fold(0.0, |most: f64, v| most.max(v.abs())) + radius;
-        Self { outline: Outline::Polygon(ends), center, radius, size }
+        Self { core: ends, thickness: 0.0, center, radius, size }
     }
 
     /// How far a distance from a link within `reach` (m) of the origin may be off (m).
@@ -79,8 +69,8 @@ impl<'a> Body<'a> {
         if size < LARGEST { ROUNDING * size } else { f64::INFINITY }
     }
 
-    /// Least distance (m) from `axis` to the obstacle; not above 0 when they meet: then minus the depth for
-    /// a disc, 0 for a polygon.
+    /// Least distance (m) from `axis` to the obstacle; not above 0 when they meet: then minus the depth, but in the core of
+    /// a polygon no more than its thickness.
     pub(super) fn distance(&self, axis: &Axis) -> f64 {
         self.distance_while_turning(axis, 0.0)
     }
@@ -89,15 +79,18 @@ impl<'a> Body<'a> {
     /// where it does not meet it.
     pub(super) fn depth(&self, axis: &Axis, width: f64) -> f64 {
         let hull = self.distance_of_hull(axis, 0.0);
-        match self.outline {
-            Outline::Disc => width - hull,
-            // The obstacle is at least as far away as the disc around it.
-            Outline::Polygon(_) if hull > width => width - hull,
-            Outline::Polygon(vertices) => {
-                let distance = polygon_distance(axis, 0.0, vertices);
-                if distance > 0.0 { width - distance } else { width + polygon_depth(axis, vertices) }
-            }
+        // The obstacle is at least as far away as the disc around it.
+        if self.is_disc() || hull > width {
+            return width - hull;
         }
+        // As far as the core is from where a link still meets the obstacle.
+        let width = width + self.thickness;
+        let distance = core_distance(axis, 0.0, self.core);
+        if distance > 0.0 { width - distance } else { width + core_depth(axis, self.core) }
+    }
+
+    fn is_disc(&self) -> bool {
+        self.core.len() == 1
     }
 
     /// Least distance (m) that the link keeps while it turns about its start by no more than `turn` (rad)
@@ -106,10 +99,10 @@ impl<'a> Body<'a> {
         if turn > WIDEST_TURN {
             return self.distance(axis) - axis.length * turn;
         }
-        match self.outline {
-            Outline::Disc => self.distance_of_hull(axis, turn),
-            Outline::Polygon(vertices) => polygon_distance(axis, turn, vertices),
+        if self.is_disc() {
+            return self.distance_of_hull(axis, turn);
         }
+        core_distance(axis, turn, self.core) - self.thickness
     }
 
     /// The same as [`Self::distance_while_turning`] for the disc around the obstacle: never more.
@@ -151,8 +144,8 @@ impl<'a> Tilt<'a> {
 
 /// Over an edge and the axis "distance - turn * r" is convex, and without a crossing its least value is found
 /// with a vertex of the edge or an end of the axis: so every vertex against the axis and both ends of the axis
-/// against every edge are enough.
-fn polygon_distance(axis: &Axis, turn: f64, vertices: &[Point]) -> f64 {
+/// against every edge are enough. A line between two vertices is an edge there and back, with nothing inside.
+fn core_distance(axis: &Axis, turn: f64, vertices: &[Point]) -> f64 {
     let tilt = Tilt::new(axis, turn);
     let reach = axis.length * turn;
     let end = [axis.start[0] + axis.length * axis.along[0], axis.start[1] + axis.length * axis.along[1]];
@@ -175,12 +168,12 @@ fn polygon_distance(axis: &Axis, turn: f64, vertices: &[Point]) -> f64 {
         start_is_inside ^= ray_meets_edge(axis.start, a, b);
         (a, along_a, aside_a) = (b, along_b, aside_b);
     }
-    if start_is_inside { -reach } else { least }
+    if start_is_inside && vertices.len() > 2 { -reach } else { least }
 }
 
 /// A link goes on crossing an edge while its ends stay on their sides of the edge's line and the edge's ends off the
 /// link; and an end of it stays inside while it moves less far than the boundary is.
-fn polygon_depth(axis: &Axis, vertices: &[Point]) -> f64 {
+fn core_depth(axis: &Axis, vertices: &[Point]) -> f64 {
     let tilt = Tilt::new(axis, 0.0);
     let end = [axis.start[0] + axis.length * axis.along[0], axis.start[1] + axis.length * axis.along[1]];
     let mut crossing = 0.0_f64;
@@ -202,7 +195,8 @@ fn polygon_depth(axis: &Axis, vertices: &[Point]) -> f64 {
         }
         a = b;
     }
-    let deepest_end = (0..2).filter(|&i| inside[i]).map(|i| to_boundary[i]).fold(0.0, f64::max);
+    let is_inside = |&i: &usize| inside[i] && vertices.len() > 2;
+    let deepest_end = (0..2).filter(is_inside).map(|i| to_boundary[i]).fold(0.0, f64::max);
     crossing.max(deepest_end)
 }
 

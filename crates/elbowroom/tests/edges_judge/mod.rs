@@ -2,9 +2,9 @@
 //! boxes around elbow and tip, halved until they decide.
 
 use elbowroom::arm::{Arm, Joint};
-use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::geometry::{Point, Shape, ShapeError};
 use elbowroom::path::straight_move_is_free;
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use elbowroom::scene::{Obstacle, Scene};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -36,6 +36,9 @@ pub(crate) struct Tally {
     /// The judge could not tell; called free.
     pub(crate) undecided: u64,
 }
+
+/// What makes a shape of a core and a radius (m).
+type Grow = fn([Point; 2], f64) -> Result<Shape, ShapeError>;
 
 /// A closed range of numbers.
 #[derive(Clone, Copy)]
@@ -175,28 +178,37 @@ fn random_edge(rng: &mut ChaCha8Rng) -> Option<Edge> {
     for _ in 0..=rng.next_u64() % 3 {
         let (distance, angle) = (reach * number(rng, 0.02, 1.1), number(rng, -4.0, 4.0));
         let center = Point::new(distance * angle.cos(), distance * angle.sin());
-        let shape = if rng.next_u64().is_multiple_of(5) {
-            let size = reach * number(rng, 0.005, 0.2);
-            let corner =
-                |k: f64| Point::new(center.x + size * (angle + k).cos(), center.y + size * (angle + k).sin());
-            Shape::Polygon(Polygon::new(vec![corner(0.0), corner(1.9), corner(4.0)]).ok()?)
-        } else {
-            Shape::Circle(Circle { center, radius: 10f64.powf(number(rng, -4.3, -1.0)) })
+        let kind = rng.next_u64() % 5;
+        let size = reach * number(rng, 0.005, 0.2);
+        let corner =
+            |k: f64| Point::new(center.x + size * (angle + k).cos(), center.y + size * (angle + k).sin());
+        // As thin as a line, or with sharp corners, every other time.
+        let rounding = if rng.next_u64() & 1 == 0 { 0.0 } else { 0.2 * size };
+        let shape = match kind {
+            0 => Shape::rounded_polygon(vec![corner(0.0), corner(1.9), corner(4.0)], rounding),
+            1 => Shape::segment(center, corner(number(rng, -4.0, 4.0)), rounding),
+            _ => Shape::circle(center, 10f64.powf(number(rng, -4.3, -1.0))),
         };
+        let shape = shape.ok()?;
         obstacles.push(Obstacle::still(shape));
     }
-    // Every other edge: the first circle is made to end within a hair's breadth of the arm somewhere on its way.
+    // Every other edge: the first disc or wall is made to end within a hair's breadth of the arm somewhere on its way.
     if rng.next_u64() & 1 == 0 {
         let there = ends_of_links(&arm, between(from, to, number(rng, 0.0, 1.0)));
-        if let Shape::Circle(circle) = &mut obstacles[0].shape {
-            let dot = Circle { radius: 0.0, ..*circle };
-            let dot = Obstacle::still(Shape::Circle(dot));
+        let grown = match *obstacles[0].shape.vertices() {
+            [center] => Some(((|[a, _], r| Shape::circle(a, r)) as Grow, [center; 2])),
+            [from, to] => Some(((|[a, b], r| Shape::segment(a, b, r)) as Grow, [from, to])),
+            _ => None,
+        };
+        if let Some((grow, core)) = grown {
+            // So thin that a distance from it is one from its middle.
+            let thin = Obstacle::still(grow(core, 1e-300).ok()?);
             let [base, elbow, tip] = there;
-            let near = distance::distance(&dot, base, elbow).min(distance::distance(&dot, elbow, tip));
+            let near = distance::distance(&thin, base, elbow).min(distance::distance(&thin, elbow, tip));
             let side = if rng.next_u64() & 1 == 0 { 1.0 } else { -1.0 };
             let radius = near - half_width + side * 10f64.powf(number(rng, -8.5, -2.0));
             if radius > 1e-5 {
-                circle.radius = radius;
+                obstacles[0].shape = grow(core, radius).ok()?;
             }
         }
     }

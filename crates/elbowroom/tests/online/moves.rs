@@ -2,27 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use elbowroom::geometry::{Circle, Point, Polygon, Vector};
-use elbowroom::scene::{Obstacle, Scene, Shape};
+use elbowroom::geometry::{Point, Vector};
+use elbowroom::scene::{Obstacle, Scene};
 
 use crate::worlds::Numbers;
 use crate::{build, judge};
 
-fn shifted(obstacle: &Obstacle, by: Vector) -> Option<Obstacle> {
-    let shape = match &obstacle.shape {
-        Shape::Circle(circle) => Shape::Circle(Circle { center: circle.center + by, radius: circle.radius }),
-        Shape::Polygon(polygon) => {
-            Shape::Polygon(Polygon::new(polygon.vertices().iter().map(|&v| v + by).collect()).ok()?)
-        }
-    };
-    Some(Obstacle { shape, ..obstacle.clone() })
+fn shifted(obstacle: &Obstacle, by: Vector) -> Obstacle {
+    Obstacle { shape: obstacle.shape.shifted(by), ..obstacle.clone() }
 }
 
 fn middle(obstacle: &Obstacle) -> Point {
-    match &obstacle.shape {
-        Shape::Circle(circle) => circle.center,
-        Shape::Polygon(polygon) => polygon.vertices()[0],
-    }
+    obstacle.shape.vertices()[0]
 }
 
 /// A disc that touches, or nearly, a link of the arm standing somewhere.
@@ -73,11 +64,7 @@ pub(crate) fn update(numbers: &mut Numbers, scene: &Scene) -> Vec<Obstacle> {
             }
             2 => drop(obstacles.remove(index)),
             3 => obstacles[index] = against_a_link(numbers, scene),
-            _ => {
-                if let Some(moved) = shifted(&obstacles[index], by) {
-                    obstacles[index] = moved;
-                }
-            }
+            _ => obstacles[index] = shifted(&obstacles[index], by),
         }
     }
     obstacles

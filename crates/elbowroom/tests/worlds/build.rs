@@ -6,9 +6,9 @@
 use std::path::Path;
 
 use elbowroom::arm::{Arm, Joint, JointLimits, MotionLimits};
-use elbowroom::geometry::{Circle, Point, Polygon};
+use elbowroom::geometry::{Point, Shape};
 use elbowroom::grid::Grid;
-use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture, parse};
+use elbowroom::scene::{Obstacle, Place, Scene, Task, TaskPosture, parse};
 
 /// Centres of the circles of 5 cm among which the paper's arm stands (m).
 pub(crate) const CIRCLES: [[f64; 2]; 5] =
@@ -35,12 +35,24 @@ pub(crate) fn arm_of(lengths: &[f64], half_width: f64, joints: &[Joint]) -> Arm 
 }
 
 pub(crate) fn circle(x: f64, y: f64, radius: f64) -> Obstacle {
-    Obstacle::still(Shape::Circle(Circle { center: Point::new(x, y), radius }))
+    Obstacle::still(Shape::circle(Point::new(x, y), radius).unwrap())
 }
 
 pub(crate) fn polygon(vertices: &[[f64; 2]]) -> Obstacle {
     let vertices = vertices.iter().map(|&[x, y]| Point::new(x, y)).collect();
-    Obstacle::still(Shape::Polygon(Polygon::new(vertices).unwrap()))
+    Obstacle::still(Shape::polygon(vertices).unwrap())
+}
+
+/// All that is within `radius` (m) of a polygon.
+pub(crate) fn rounded(vertices: &[[f64; 2]], radius: f64) -> Obstacle {
+    let vertices = vertices.iter().map(|&[x, y]| Point::new(x, y)).collect();
+    Obstacle::still(Shape::rounded_polygon(vertices, radius).unwrap())
+}
+
+/// From one end to the other, as thick as `radius` (m) says.
+pub(crate) fn segment([from, to]: [[f64; 2]; 2], radius: f64) -> Obstacle {
+    let [from, to] = [from, to].map(|[x, y]| Point::new(x, y));
+    Obstacle::still(Shape::segment(from, to, radius).unwrap())
 }
 
 /// From `-half` to `half` both ways (m).

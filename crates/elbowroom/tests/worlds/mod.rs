@@ -1,10 +1,10 @@
-//! Seeded random worlds: thin posts, walls, slots, polygons; links of all kinds; tasks between free places.
+//! Seeded random worlds: thin posts, walls, slots, polygons, every third time with all of them round; links of all kinds; tasks between free places.
 
 use std::f64::consts::{PI, TAU};
 
 use elbowroom::arm::{Joint, JointLimits, MotionLimits};
-use elbowroom::geometry::{Point, Polygon};
-use elbowroom::scene::{Obstacle, Place, Scene, Shape, Task, TaskPosture};
+use elbowroom::geometry::{Point, Shape};
+use elbowroom::scene::{Obstacle, Place, Scene, Task, TaskPosture};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -42,10 +42,19 @@ pub(crate) fn bar(a: [f64; 2], b: [f64; 2], thick: f64) -> Option<Obstacle> {
         Point::new(b[0] - nx, b[1] - ny),
         Point::new(a[0] - nx, a[1] - ny),
     ];
-    Some(Obstacle::still(Shape::Polygon(Polygon::new(corners).ok()?)))
+    Some(Obstacle::still(Shape::polygon(corners).ok()?))
 }
 
-fn star(numbers: &mut Numbers, center: [f64; 2], size: f64) -> Option<Obstacle> {
+/// What [`bar`] is with round ends; every other one has no thickness at all.
+fn round_bar(a: [f64; 2], b: [f64; 2], thick: f64, before: usize) -> Option<Obstacle> {
+    let [from, to] = [a, b].map(|[x, y]| Point::new(x, y));
+    Some(Obstacle::still(
+        Shape::segment(from, to, if before.is_multiple_of(2) { 0.0 } else { thick / 2.0 }).ok()?,
+    ))
+}
+
+/// Its corners rounded by so much (m).
+fn star(numbers: &mut Numbers, center: [f64; 2], size: f64, rounding: f64) -> Option<Obstacle> {
     let corners = 3 + numbers.below(6);
     let turned = numbers.within(0.0, TAU);
     let vertices = (0..corners)
@@ -55,10 +64,12 @@ fn star(numbers: &mut Numbers, center: [f64; 2], size: f64) -> Option<Obstacle> 
             Point::new(center[0] + radius * angle.cos(), center[1] + radius * angle.sin())
         })
         .collect();
-    Some(Obstacle::still(Shape::Polygon(Polygon::new(vertices).ok()?)))
+    Some(Obstacle::still(Shape::rounded_polygon(vertices, rounding).ok()?))
 }
 
-fn obstacles(numbers: &mut Numbers, reach: f64) -> Vec<Obstacle> {
+/// Round or with sharp corners: the same numbers are drawn.
+fn obstacles(numbers: &mut Numbers, reach: f64, round: bool) -> Vec<Obstacle> {
+    let bar = |a, b, thick, before| if round { round_bar(a, b, thick, before) } else { bar(a, b, thick) };
     let at = |numbers: &mut Numbers, nearest: f64| {
         let (distance, angle) = (reach * numbers.within(nearest, 1.1), numbers.within(-PI, PI));
         [distance * angle.cos(), distance * angle.sin()]
@@ -73,7 +84,7 @@ fn obstacles(numbers: &mut Numbers, reach: f64) -> Vec<Obstacle> {
             2 => {
                 let to = at(numbers, 0.15);
                 let thick = 10f64.powf(numbers.within(-4.0, -1.5));
-                found.extend(bar(center, to, thick));
+                found.extend(bar(center, to, thick, found.len()));
             }
             3 => {
                 // A slot: two bars in line with a gap between them.
@@ -83,12 +94,12 @@ fn obstacles(numbers: &mut Numbers, reach: f64) -> Vec<Obstacle> {
                 for side in [-1.0, 1.0] {
                     let from = [center[0] + side * gap * c, center[1] + side * gap * s];
                     let to = [center[0] + side * (gap + arm) * c, center[1] + side * (gap + arm) * s];
-                    found.extend(bar(from, to, 0.004));
+                    found.extend(bar(from, to, 0.004, found.len()));
                 }
             }
             _ => {
                 let size = reach * numbers.within(0.02, 0.2);
-                found.extend(star(numbers, center, size));
+                found.extend(star(numbers, center, size, if round { 0.3 * size } else { 0.0 }));
             }
         }
     }
@@ -134,7 +145,7 @@ pub(crate) fn world(seed: u64) -> Option<Scene> {
     let reach = l1 + l2;
     let side = numbers.within(16.0, 50.0);
     let grid = build::grid(reach, 2.0 * reach / side);
-    let obstacles = obstacles(&mut numbers, reach);
+    let obstacles = obstacles(&mut numbers, reach, seed % 3 == 2);
     let scene = Scene::new(arm, grid, obstacles, Vec::new()).ok()?;
     let mut ends = Vec::new();
     for _ in 0..200 {

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use super::Location;
 use crate::arm::{ArmError, MOST_LINKS};
-use crate::geometry::{CircleError, PolygonError};
+use crate::geometry::ShapeError;
 use crate::grid::GridError;
 use crate::scene::{ObstacleMotionError, SceneProblem};
 
@@ -158,9 +158,11 @@ pub enum Problem {
         /// The same once more.
         second: usize,
     },
-    /// Neither one shape nor the other, or both.
-    #[error("an obstacle is either a circle or a polygon; found {found}")]
+    /// No shape, or more than one.
+    #[error("an obstacle is one of {}; found {found}", known.join(", "))]
     OneShape {
+        /// Those there are.
+        known: Vec<&'static str>,
         /// Which are there.
         found: &'static str,
     },
@@ -170,12 +172,9 @@ pub enum Problem {
     /// The measures of the arm.
     #[error(transparent)]
     Arm(#[from] ArmError),
-    /// The corners of a polygon.
+    /// The measures of an obstacle.
     #[error(transparent)]
-    Polygon(#[from] PolygonError),
-    /// A circle.
-    #[error(transparent)]
-    Circle(#[from] CircleError),
+    Obstacle(#[from] ShapeError),
     /// The grid.
     #[error(transparent)]
     Grid(#[from] GridError),

@@ -24,6 +24,7 @@ pub(super) const OBSTACLE: Keys = Keys {
     required: &[],
     optional: &[
         "circle",
+        "segment",
         "polygon",
         "name",
         "motion",
@@ -37,6 +38,7 @@ pub(super) const MOTION: Keys =
     Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases", "keep_off"] };
 pub(super) const WAYPOINT: Keys = Keys { required: &["time", "shift"], optional: &[] };
 pub(super) const CIRCLE: Keys = Keys { required: &["center", "radius"], optional: &[] };
+pub(super) const SEGMENT: Keys = Keys { required: &["from", "to"], optional: &["radius"] };
 pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };
 pub(super) const PLACE: Keys = Keys { required: &["q"], optional: &[] };
 
@@ -59,6 +61,7 @@ mod tests {
             ("/$defs/grid", GRID),
             ("/$defs/obstacle", OBSTACLE),
             ("/$defs/circle", CIRCLE),
+            ("/$defs/segment", SEGMENT),
             ("/$defs/motion", MOTION),
             ("/$defs/waypoint", WAYPOINT),
             ("/$defs/task", TASK),

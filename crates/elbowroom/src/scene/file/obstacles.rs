@@ -5,9 +5,14 @@ use super::keys;
 use super::motion;
 use super::units::Units;
 use super::value::{Fault, Value};
-use crate::geometry::{Circle, Point, Polygon, PolygonError};
+use crate::geometry::{Point, Shape, ShapeError};
 use crate::scene::problem::MOST_OBSTACLES;
-use crate::scene::{Obstacle, SceneProblem, Shape};
+use crate::scene::{Obstacle, SceneProblem};
+
+/// What an obstacle may be, by the key that says so.
+const SHAPES: [(&str, Reader); 3] = [("circle", circle), ("segment", segment), ("polygon", polygon)];
+
+type Reader = fn(&Value<'_>, Units) -> Result<Shape, Fault>;
 
 /// The obstacles, and how those move that do.
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Vec<Obstacle>, Fault> {
@@ -31,26 +36,43 @@ fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>
         }
         None => None,
     };
-    let shape = match (map.optional("circle"), map.optional("polygon")) {
-        (Some(circle), None) => Shape::Circle(read_circle(&circle, units)?),
-        (None, Some(polygon)) => Shape::Polygon(read_polygon(&polygon, units)?),
-        (Some(_), Some(_)) => return Err(value.fault(Problem::OneShape { found: "both" })),
-        (None, None) => return Err(value.fault(Problem::OneShape { found: "neither" })),
+    let mut shapes = SHAPES.iter().filter_map(|(key, read)| Some((map.optional(key)?, read)));
+    let shape = match (shapes.next(), shapes.next()) {
+        (Some((value, read)), None) => read(&value, units)?,
+        (Some(_), Some(_)) => return Err(value.fault(one_shape("more than one"))),
+        (None, _) => return Err(value.fault(one_shape("none"))),
     };
     Ok(Obstacle { name, shape, motion: motion::read(&map, units)? })
 }
 
-fn read_circle(value: &Value<'_>, units: Units) -> Result<Circle, Fault> {
+fn one_shape(found: &'static str) -> Problem {
+    Problem::OneShape { known: SHAPES.iter().map(|(key, _)| *key).collect(), found }
+}
+
+fn circle(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
     let map = value.map(&keys::CIRCLE)?;
     let center = map.required("center")?.point(units)?;
     let radius = map.required("radius")?;
     match radius.length(units)? {
-        length if length > 0.0 => Circle::new(center, length).map_err(|error| value.fault(error.into())),
+        length if length > 0.0 => Shape::circle(center, length).map_err(|error| value.fault(error.into())),
         _ => Err(radius.out_of_range("greater than 0")),
     }
 }
 
-fn read_polygon(value: &Value<'_>, units: Units) -> Result<Polygon, Fault> {
+fn segment(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
+    let map = value.map(&keys::SEGMENT)?;
+    let [from, to] = [map.required("from")?.point(units)?, map.required("to")?.point(units)?];
+    let radius = match map.optional("radius") {
+        None => 0.0,
+        Some(radius) => match radius.length(units)? {
+            length if length >= 0.0 => length,
+            _ => return Err(radius.out_of_range("0 or more")),
+        },
+    };
+    Shape::segment(from, to, radius).map_err(|error| value.fault(error.into()))
+}
+
+fn polygon(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
     let values = value.list("a list of corners [x, y]")?;
     let corners = values.iter().map(|corner| corner.point(units)).collect::<Result<Vec<Point>, Fault>>()?;
     // Common enough for words of its own: other tools write rings that end where they began.
@@ -60,10 +82,10 @@ fn read_polygon(value: &Value<'_>, units: Units) -> Result<Polygon, Fault> {
     if let Some((first, second)) = repeated {
         return Err(values[second].fault(Problem::CornerTwice { first, second }));
     }
-    Polygon::new(corners).map_err(|error| match error {
-        PolygonError::NotFinite { vertex: i } | PolygonError::EdgesMeet { first: i, .. } => {
+    Shape::polygon(corners).map_err(|error| match error {
+        ShapeError::NotFinite { vertex: i } | ShapeError::EdgesMeet { first: i, .. } => {
             values[i].fault(error.into())
         }
-        PolygonError::VertexCount { .. } => value.fault(error.into()),
+        error => value.fault(error.into()),
     })
 }
