@@ -27,7 +27,7 @@ SOURCES = "crates/elbowroom/src/"
 KNOWN = ROOT / "bench" / "mutants_known.toml"
 PAGE = ROOT / "docs" / "mutants.md"
 
-FRAME_TESTS = ("plan", "swarm_planners", "chain_plan", "bound")
+FRAME_TESTS = ("plan", "custom_planner", "mechanisms", "swarm_planners", "chain_plan", "bound")
 TESTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     # Module as the page names it, beginning of its files, tests; the first row that fits counts. `lib:search` is the
     # tests that stand beside the code in `search`.
@@ -40,11 +40,7 @@ TESTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("search", "search/open_list", ("lib:search", "dstar")),
     ("search", "search/", ("dstar",)),
     ("frame", "planning/", FRAME_TESTS),
-    ("frame", "planners/ends", FRAME_TESTS),
-    ("frame", "planners/finish", FRAME_TESTS),
-    ("frame", "planners/smooth", FRAME_TESTS),
-    ("frame", "planners/choose", FRAME_TESTS),
-    ("frame", "planners/bound", FRAME_TESTS),
+    ("frame", "planners/shortlist", FRAME_TESTS),
 )
 
 # Quick to build: what is tested is whether a test fails, not how fast the code is.

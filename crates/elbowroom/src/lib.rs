@@ -27,21 +27,22 @@
 //! ```
 //!
 //! Modules import only from those before them:
-//! `geometry < surface < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < planning < planners < online`.
+//! `geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < roadmap < planning < planners < online`.
 
 pub mod arm;
 mod decomposition;
 pub mod free_space;
 pub mod geometry;
 pub mod grid;
+pub mod mesh;
 pub mod online;
 pub mod path;
 pub mod planners;
 pub mod planning;
 mod random;
+mod roadmap;
 pub mod scene;
 pub mod search;
-pub mod surface;
 pub mod swarm;
 pub mod trajectory;
 pub mod verify;

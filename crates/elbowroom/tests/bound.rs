@@ -19,11 +19,11 @@ use std::f64::consts::{PI, TAU};
 use elbowroom::arm::{Arm, Joint, JointLimits, Posture};
 use elbowroom::free_space::configurations;
 use elbowroom::geometry::{Point, Vector};
+use elbowroom::mesh::{Across, Measure, MeshPoint, NavigationMesh, Side};
 use elbowroom::path::straight_move_keeps;
 use elbowroom::planners::OptimalPlanner;
 use elbowroom::planning::{Objective, PlanError, PlanSettings, Unwatched, plan};
 use elbowroom::scene::{Scene, Task, TaskPosture, TwoLinkScene};
-use elbowroom::surface::{Across, Measure, Side, Surface, SurfacePlace};
 use elbowroom::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
 /// What brute force finds.
@@ -306,18 +306,18 @@ fn campaign(seeds: std::ops::Range<u64>, points: usize) -> Count {
 }
 
 /// A triangle around `at` with sides of about `size`, all of them walls.
-fn walled(at: [f64; 2], size: f64, numbers: &mut worlds::Numbers) -> Option<Surface> {
+fn walled(at: [f64; 2], size: f64, numbers: &mut worlds::Numbers) -> Option<NavigationMesh> {
     let turned = numbers.within(0.0, TAU);
     let corner = |i: usize| {
         let angle = turned + TAU * i as f64 / 3.0;
         Point::new(at[0] + size * angle.cos(), at[1] + size * angle.sin())
     };
-    Surface::new(&[(0..3).map(|i| Side { from: corner(i), across: None }).collect()]).ok()
+    NavigationMesh::new(&[(0..3).map(|i| Side { from: corner(i), across: None }).collect()]).ok()
 }
 
 /// Whether the judge finds a place of the triangle's sides that is clear by more than rounding.
-fn has_a_gap(surface: &Surface, clearance: impl Fn(Point) -> f64) -> bool {
-    let sides = surface.sides(0);
+fn has_a_gap(mesh: &NavigationMesh, clearance: impl Fn(Point) -> f64) -> bool {
+    let sides = mesh.sides(0);
     (0..3).any(|i| {
         let (a, b) = (sides[i].from, sides[(i + 1) % 3].from);
         (0..=300).any(|k| clearance(a.lerp(b, f64::from(k) / 300.0)) > 1e-9)
@@ -345,16 +345,15 @@ fn walls_that_the_verifier_accepts_are_blocked_all_along() {
                 scene.obstacles().iter().any(|o| distance::distance(o, at[1], at[1]) < half_width),
             ];
             for plane in (0..2).filter(|&plane| in_contact[plane]) {
-                let Some(surface) = walled(at[plane], size, &mut numbers) else { continue };
-                let place = SurfacePlace { cell: 0, point: Point::new(at[plane][0], at[plane][1]) };
+                let Some(mesh) = walled(at[plane], size, &mut numbers) else { continue };
+                let place = MeshPoint { cell: 0, point: Point::new(at[plane][0], at[plane][1]) };
                 let ends = [(q, place)];
                 let (found, gap) = if plane == 0 {
-                    let claim =
-                        OpenJoints { surface: &surface, starts: &ends, goals: &[], keeps_posture: false };
-                    let gap = has_a_gap(&surface, |p| judge::clearance(&scene, [p.x, p.y]));
+                    let claim = OpenJoints { mesh: &mesh, starts: &ends, goals: &[], keeps_posture: false };
+                    let gap = has_a_gap(&mesh, |p| judge::clearance(&scene, [p.x, p.y]));
                     (bound_over_joints(two, &claim, Measure::Euclidean, &|| true), gap)
                 } else {
-                    let claim = OpenTips { surface: &surface, starts: &ends, goals: &[] };
+                    let claim = OpenTips { mesh: &mesh, starts: &ends, goals: &[] };
                     let clear = |p: Point| {
                         let at = [p.x, p.y];
                         let to = scene.obstacles().iter().map(|o| distance::distance(o, at, at));
@@ -364,7 +363,7 @@ fn walls_that_the_verifier_accepts_are_blocked_all_along() {
                         let clearance = to.fold(f64::INFINITY, f64::min) - half_width;
                         if reached { clearance } else { -1.0 }
                     };
-                    (bound_over_tips(two, &claim, &|| true), has_a_gap(&surface, clear))
+                    (bound_over_tips(two, &claim, &|| true), has_a_gap(&mesh, clear))
                 };
                 match found {
                     Ok(Reachability::Parted) => {
@@ -394,16 +393,16 @@ fn claims_that_the_arm_does_not_bear_out_are_refused() {
     };
     // A square that goes on at its own other end, as if a joint turned round after a radian.
     let to = |side, x| Some(Across { cell: 0, side, shift: Vector::new(x, 0.0) });
-    let round = Surface::new(&[square([None, to(3, -1.0), None, to(1, 1.0)])]).unwrap();
+    let round = NavigationMesh::new(&[square([None, to(3, -1.0), None, to(1, 1.0)])]).unwrap();
     let middle = [0.5, 0.5];
-    let at = |q: [f64; 2], x: f64| (q, SurfacePlace { cell: 0, point: Point::new(x, 0.5) });
-    let judged = |surface: &Surface, start: ([f64; 2], SurfacePlace)| {
+    let at = |q: [f64; 2], x: f64| (q, MeshPoint { cell: 0, point: Point::new(x, 0.5) });
+    let judged = |mesh: &NavigationMesh, start: ([f64; 2], MeshPoint)| {
         let starts = [start];
-        let claim = OpenJoints { surface, starts: &starts, goals: &[middle], keeps_posture: false };
+        let claim = OpenJoints { mesh, starts: &starts, goals: &[middle], keeps_posture: false };
         bound_over_joints(two, &claim, Measure::Euclidean, &|| true)
     };
     assert!(matches!(judged(&round, at(middle, 0.5)), Err(BoundError::Seam { cell: 0, side: 1 })));
-    let plain = Surface::new(&[square([None; 4])]).unwrap();
+    let plain = NavigationMesh::new(&[square([None; 4])]).unwrap();
     assert!(matches!(judged(&plain, at(middle, 0.6)), Err(BoundError::Place { .. })));
     assert!(matches!(judged(&plain, at([2.5, 0.5], 2.5)), Err(BoundError::Place { .. })));
 }

@@ -1,15 +1,15 @@
-//! The plane of both joints, or of the tip, cut into convex cells: what obstacles and stops leave of it, a little more or
-//! a little less, as a surface.
+//! Vertical (trapezoidal) cell decomposition of the configuration space of two joints, and of the workspace of the tip: what
+//! obstacles and stops leave open of it, a little more or a little less, as a navigation mesh.
 //!
 //! Slices of the obstacles are exact, and between two slices their edges are nearly straight: few trapezoids are as
-//! good as a very fine grid. Why a surface and not a grid: the shortest path on it is exact, so that its length is a
+//! good as a very fine grid. Why a mesh and not a grid: the shortest path on it is exact, so that its length is a
 //! lower bound where the cells cover all that is free, and nearly a plan where they cover only what is free.
 
-mod joints;
-mod sew;
+mod connect;
+mod joint_space;
 mod slabs;
-mod tips;
+mod workspace;
 
-pub(crate) use joints::{JointChart, sheet_ranges};
-pub(crate) use slabs::Walls;
-pub(crate) use tips::tip_chart;
+pub(crate) use joint_space::{JointSpaceCells, branch_ranges};
+pub(crate) use slabs::Approximation;
+pub(crate) use workspace::workspace_cells;

@@ -9,14 +9,25 @@ const NARROWEST: f64 = 0.1;
 /// Width of the thinnest obstacle that walls stand inside of, in distances between wall and obstacle.
 const THINNEST: f64 = 1e-4;
 
-/// How walls stand to the obstacles they stand for.
+/// How obstacles are approximated by trapezoids.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Walls {
-    /// Whether they stand inside the obstacles, so that all that is free is open, or before them, so that all
-    /// that is open is free.
-    pub(crate) inside: bool,
-    /// How far, in the unit of the plane; nearer to what is thin.
-    pub(crate) distance: f64,
+pub(crate) struct Approximation {
+    /// Whether the trapezoids lie within the obstacles.
+    pub(super) is_inner: bool,
+    /// How far the walls of both are apart, in the unit of the plane; nearer at what is thin.
+    pub(super) distance: f64,
+}
+
+impl Approximation {
+    /// Trapezoids within the obstacles: all that is free is open.
+    pub(crate) const fn inner(distance: f64) -> Self {
+        Self { is_inner: true, distance }
+    }
+
+    /// Trapezoids around the obstacles: all that is open is free.
+    pub(crate) const fn outer(distance: f64) -> Self {
+        Self { is_inner: false, distance }
+    }
 }
 
 /// A stretch of the first coordinate between two slices.
@@ -39,7 +50,7 @@ pub(crate) struct Barrier {
 pub(crate) struct Cutter<'a> {
     /// What is forbidden of the second coordinate at a place of the first: intervals in order, apart.
     pub(crate) forbidden: &'a dyn Fn(f64) -> Vec<[f64; 2]>,
-    pub(crate) walls: Walls,
+    pub(crate) approximation: Approximation,
     /// Where the second coordinate may be.
     pub(crate) range: [f64; 2],
     /// How wide the slabs are that are begun with.
@@ -70,14 +81,14 @@ impl Cutter<'_> {
 
     fn slice(&self, x: f64) -> Slice {
         let [low, high] = self.range;
-        let Walls { inside, distance } = self.walls;
+        let Approximation { is_inner, distance } = self.approximation;
         let mut closed: Vec<[f64; 2]> = Vec::new();
         for [from, to] in (self.forbidden)(x) {
             // Where an obstacle is only grazed a wall inside it would stand on rounding.
-            if inside && to - from < THINNEST * distance {
+            if is_inner && to - from < THINNEST * distance {
                 continue;
             }
-            let shift = if inside { distance.min((to - from) / 4.0) } else { -distance };
+            let shift = if is_inner { distance.min((to - from) / 4.0) } else { -distance };
             // At the end of the range, where it goes on or the stop is, there is no wall to be moved.
             let from = if from <= low { low } else { (from + shift).max(low) };
             let to = if to >= high { high } else { (to - shift).min(high) };
@@ -98,7 +109,7 @@ impl Cutter<'_> {
         let barriers = if is_straight {
             let ends = left.closed.iter().zip(&right.closed);
             ends.map(|(&left, &right)| Barrier { left, right }).collect()
-        } else if right.x - left.x > NARROWEST * self.walls.distance {
+        } else if right.x - left.x > NARROWEST * self.approximation.distance {
             self.cut(left, &middle, slabs);
             self.cut(&middle, right, slabs);
             return;
@@ -116,7 +127,7 @@ impl Cutter<'_> {
         }
         (0..count).all(|i| {
             let (a, m, b) = (left.closed[i], between.closed[i], right.closed[i]);
-            let near = SLACK * self.walls.distance.min((m[1] - m[0]) / 2.0);
+            let near = SLACK * self.approximation.distance.min((m[1] - m[0]) / 2.0);
             let off = |end: usize| a[end] + (b[end] - a[end]) * share - m[end];
             overlap(a, m) && overlap(m, b) && (0..2).all(|end| off(end).abs() <= near)
         })
@@ -127,7 +138,7 @@ impl Cutter<'_> {
         let [first, others @ ..] = slices;
         let mut closed = first.closed.clone();
         for other in others {
-            closed = if self.walls.inside {
+            closed = if self.approximation.is_inner {
                 in_both(&closed, &other.closed)
             } else {
                 merged(closed.into_iter().chain(other.closed.iter().copied()).collect())

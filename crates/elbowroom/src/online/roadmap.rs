@@ -4,8 +4,9 @@ use super::placed::{AWAY, still};
 use crate::free_space::{ChangedCells, FreeSpace};
 use crate::geometry::Shape;
 use crate::path::{JointPath, straight_move_is_free};
-use crate::planners::{ChangingGraph, DstarPlanner, Goal, Kept};
+use crate::planners::DstarPlanner;
 use crate::planning::{Endpoints, PlanError, Planner, Unwatched};
+use crate::roadmap::{DynamicGraph, Goal, NodeCache};
 use crate::scene::{Obstacle, Scene, SceneProblem, Task, TwoLinkError};
 use crate::search::{Dstar, Graph, Progress, Until};
 
@@ -27,9 +28,9 @@ const WORTH_REPAIRING: f64 = 0.8;
 pub struct Roadmap {
     scene: Scene,
     space: FreeSpace,
-    kept: Kept,
+    cache: NodeCache,
     goals: Vec<Goal>,
-    may_flip: bool,
+    may_change_posture: bool,
     /// Whether some goal can be left, or entered, at all.
     is_goal_open: bool,
     field: Dstar,
@@ -101,19 +102,28 @@ impl Roadmap {
             TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
         })?;
         let ends = Endpoints::new(&still(&scene, |_, _| Some(AWAY)), task, 0, &Unwatched)?;
-        let ([_, goals], may_flip) = (ends.pairs(), !ends.keep_posture);
+        let ([_, goals], may_change_posture) = (ends.pairs(), !ends.keep_posture);
         let space = FreeSpace::of(two_link);
-        let graph = ChangingGraph::new(two_link, &space, may_flip, (Kept::default(), &[]));
+        let graph = DynamicGraph::new(two_link, &space, may_change_posture, (NodeCache::default(), &[]));
         let goals = graph.goals_at(&goals);
-        let kept = graph.into_kept();
-        let graph = ChangingGraph::new(two_link, &space, may_flip, (kept, &goals));
+        let cache = graph.into_cache();
+        let graph = DynamicGraph::new(two_link, &space, may_change_posture, (cache, &goals));
         let mut field = Dstar::new(graph.len());
         for goal in graph.goal_nodes() {
             field.insert_goal(goal, 0.0)?;
         }
-        let kept = graph.into_kept();
+        let cache = graph.into_cache();
         let is_goal_open = goals.iter().any(Goal::is_open);
-        Ok(Self { scene, space, kept, goals, may_flip, is_goal_open, field, upkeep: Upkeep::default() })
+        Ok(Self {
+            scene,
+            space,
+            cache,
+            goals,
+            may_change_posture,
+            is_goal_open,
+            field,
+            upkeep: Upkeep::default(),
+        })
     }
 
     /// The same, with another upkeep.
@@ -167,7 +177,7 @@ impl Roadmap {
             Err(_) => ChangedCells::default(),
         };
         let most = match self.upkeep {
-            Upkeep::Cheaper => (WORTH_REPAIRING * self.kept.count() as f64) as usize,
+            Upkeep::Cheaper => (WORTH_REPAIRING * self.cache.count() as f64) as usize,
             Upkeep::Repair => usize::MAX,
             Upkeep::Anew => 0,
         };
@@ -233,8 +243,8 @@ impl Roadmap {
         .unwrap_or(Err(NoRoute::NotFound))
     }
 
-    /// The cost-to-go (m) over every cell, one sheet after the other, elbow-up first, and of the goals after that;
-    /// settled everywhere. A posture has one sheet, or one for each turn that a joint with stops can be at.
+    /// The cost-to-go (m) over every cell, one branch after the other, elbow-up first, and of the goals after that;
+    /// settled everywhere. A posture has one branch, or one for each turn that a joint with stops can be at.
     pub fn whole_field(&mut self) -> Vec<f64> {
         self.with_graph(|graph, field| {
             field.expand(graph, Until::WholeField, usize::MAX);
@@ -257,12 +267,12 @@ impl Roadmap {
 
     /// Does `work` with the graph of the scene as it is now, which has closed forms: [`new`](Self::new) has looked at the arm,
     /// and no obstacle is let in with a motion.
-    fn with_graph<T>(&mut self, work: impl FnOnce(&ChangingGraph, &mut Dstar) -> T) -> Option<T> {
+    fn with_graph<T>(&mut self, work: impl FnOnce(&DynamicGraph, &mut Dstar) -> T) -> Option<T> {
         let scene = self.scene.two_link().ok()?;
-        let kept = std::mem::take(&mut self.kept);
-        let graph = ChangingGraph::new(scene, &self.space, self.may_flip, (kept, &self.goals));
+        let cache = std::mem::take(&mut self.cache);
+        let graph = DynamicGraph::new(scene, &self.space, self.may_change_posture, (cache, &self.goals));
         let found = work(&graph, &mut self.field);
-        self.kept = graph.into_kept();
+        self.cache = graph.into_cache();
         Some(found)
     }
 }

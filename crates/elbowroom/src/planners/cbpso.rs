@@ -3,7 +3,9 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::swarms::{Choice, Hunt, MOST_EVALUATIONS, Patience, Track, around_straight};
+use super::swarms::{
+    EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, around_straight,
+};
 use crate::arm::{Configuration, joint_distance};
 use crate::planning::{
     Candidate, Found, Monitor, Objective, OptionValue, Pace, Pick, PlanError, Planner, Problem, Round, Stage,
@@ -79,15 +81,16 @@ impl Planner for CbpsoPlanner {
         let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
         let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
         monitor.stage(Stage::JointPath);
-        let choice = Choice::new(scene.arm(), ends);
-        let track = Track::new(scene, settings.objective, ends.keep_posture);
-        let shape = Shape { choice: &choice, vias: self.vias, limits: track.limits(), pace: settings.pace };
-        let mut hunt = Hunt::new(self.evaluations, *monitor);
+        let choice = EndpointChoice::new(scene.arm(), ends);
+        let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
+        let shape =
+            Shape { choice: &choice, vias: self.vias, limits: path_objective.limits(), pace: settings.pace };
+        let mut incumbent = Incumbent::new(self.evaluations, *monitor);
         let bounds = choice.bounds(self.vias, &shape.rates()).map_err(|error| bad(error.to_string()))?;
         let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
         let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        while !hunt.is_over() {
+        while !incumbent.is_over() {
             let first: Vec<Vec<f64>> =
                 around_straight(&choice, self.vias, cultural.swarm.particles / 2, &mut rng)
                     .into_iter()
@@ -95,29 +98,29 @@ impl Planner for CbpsoPlanner {
                     .collect();
             let mut swarm = CulturalSwarm::<Fitness>::starting_at(&bounds, &cultural, &first, rng.next_u64())
                 .map_err(|error| bad(error.to_string()))?;
-            let mut patience = Patience::new();
-            while !hunt.is_over() && patience.lasts(swarm.best().1) {
+            let mut stagnation = Stagnation::new();
+            while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
                 swarm.step(&mut |x: &[f64]| {
                     let Some(motion) = shape.motion(x) else {
-                        return hunt.judge(|| f64::MAX, || 0.0, || None);
+                        return incumbent.evaluate(|| f64::MAX, || 0.0, || None);
                     };
                     let looks = motion.instants(LOOKS);
-                    hunt.judge(
-                        || violation(&track, &motion, &looks),
+                    incumbent.evaluate(
+                        || violation(&path_objective, &motion, &looks),
                         || cost(scene, settings.objective, &motion, &looks),
                         || is_safe(scene, &motion, *monitor).then(|| motion.clone()),
                     )
                 });
             }
         }
-        let (motion, effort) = hunt.end()?;
+        let (motion, effort) = incumbent.end()?;
         Ok(Found::new(vec![Candidate::Motion(motion)], Pick::First).with_effort(effort))
     }
 }
 
 /// What a particle's coordinates stand for: via configurations, velocities there, durations, and the choice of ends.
 struct Shape<'a> {
-    choice: &'a Choice,
+    choice: &'a EndpointChoice,
     vias: usize,
     limits: &'a [SpeedLimits],
     pace: Pace,
@@ -242,11 +245,11 @@ fn on_ticks(durations: &[f64], factor: f64, total: Option<f64>) -> Vec<f64> {
     rounded
 }
 
-fn violation(track: &Track<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
+fn violation(path_objective: &PathObjective<'_>, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
     let start = motion.at(motion.start()).position;
-    let mut watch = track.watch(&start);
+    let mut watch = path_objective.watch(&start);
     let mut at = |pair: &[Vec<f64>]| {
-        let moved = track.way(&pair[0], &pair[1]);
+        let moved = path_objective.way(&pair[0], &pair[1]);
         watch.at(&pair[1], moved) * (moved + 1e-6)
     };
     looks.windows(2).map(&mut at).sum()

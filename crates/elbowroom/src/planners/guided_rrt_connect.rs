@@ -1,7 +1,7 @@
 use std::ops::RangeInclusive;
 
 use super::swarms::MOST_EVALUATIONS;
-use super::tip_guided::{Guide, Leader, Trees, price, shortened};
+use super::tip_guided::{LocalPlanner, NavigationFunction, Trees, estimated_cost, shortened};
 use crate::arm::Configuration;
 use crate::path::JointPath;
 use crate::planning::{Budget, Exhausted, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
@@ -58,10 +58,10 @@ impl Planner for GuidedRrtConnectPlanner {
 
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
         let Problem { scene, task, endpoints: ends, settings, monitor, .. } = problem;
-        let mut leader = Leader::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        let mut local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
         monitor.stage(Stage::FreeSpace);
         let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
-        let to_goals = Guide::new(scene, &tips(&ends.goals), *monitor)?;
+        let to_goals = NavigationFunction::new(scene, &tips(&ends.goals), *monitor)?;
         let to_starts = to_goals.towards(&tips(&ends.starts))?;
         let asked = [&task.goal, &task.start].map(|place| match place {
             Place::Tip(tip) => Some(*tip),
@@ -73,17 +73,18 @@ impl Planner for GuidedRrtConnectPlanner {
         let mut paths: Vec<(f64, JointPath)> = Vec::new();
         while paths.len() < self.paths {
             let drawn =
-                trees.path(&mut leader).and_then(|path| shortened(&mut leader, path, settings.objective));
+                trees.path(&mut local).and_then(|path| shortened(&mut local, path, settings.objective));
             match drawn {
                 Ok(path) => {
-                    let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
-                    leader.budget.found(price);
-                    paths.push((price, path));
+                    let estimate =
+                        estimated_cost(scene.arm(), settings.objective, &path, scene.grid().step());
+                    local.budget.found(estimate);
+                    paths.push((estimate, path));
                 }
                 Err(Exhausted::Spent) => break,
                 Err(Exhausted::Failed(error)) => return Err(error),
             }
         }
-        Ok(leader.found(paths, self.paths))
+        Ok(local.found(paths, self.paths))
     }
 }

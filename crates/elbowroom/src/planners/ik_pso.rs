@@ -4,7 +4,7 @@
 //! tip's workspace, contact orders particles by Deb's rule, and every turn is certified.
 
 use super::swarms::MOST_EVALUATIONS;
-use super::tip_guided::{Guide, Leader, price, shortened};
+use super::tip_guided::{LocalPlanner, NavigationFunction, estimated_cost, shortened};
 use crate::arm::{Configuration, Posture, joint_distance, lerp};
 use crate::geometry::Point;
 use crate::path::JointPath;
@@ -80,10 +80,10 @@ impl Planner for IkPsoPlanner {
     /// other until the budget is spent.
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
         let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
-        let mut leader = Leader::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        let mut local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
         monitor.stage(Stage::FreeSpace);
         let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<Point>>();
-        let to_goals = Guide::new(scene, &tips(&ends.goals), *monitor)?;
+        let to_goals = NavigationFunction::new(scene, &tips(&ends.goals), *monitor)?;
         let to_starts = to_goals.towards(&tips(&ends.starts))?;
 
         monitor.stage(Stage::JointPath);
@@ -105,34 +105,35 @@ impl Planner for IkPsoPlanner {
             let (roots, target, _) = ways[run % 2];
             let round = run / 2;
             let root = &roots[round % roots.len()];
-            leader.kept = (ends.keep_posture)
+            local.kept = (ends.keep_posture)
                 .then(|| Posture::at(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
             let kept = guides[run % 2].len();
             let guide = &mut guides[run % 2][round % roots.len() % kept];
             let follower = Follower { guide, target, most: self.evaluations / SHARE };
             // Every run counts, so that the budget ends them.
-            let path = leader.budget.spend(1).and_then(|()| follower.path(&mut leader, root));
+            let path = local.budget.spend(1).and_then(|()| follower.path(&mut local, root));
             let found = match path {
                 Ok(Some(mut path)) => {
                     if run % 2 == 1 {
                         path.reverse();
                     }
-                    shortened(&mut leader, path, settings.objective)
+                    shortened(&mut local, path, settings.objective)
                 }
                 Ok(None) => continue,
                 Err(halt) => Err(halt),
             };
             match found {
                 Ok(path) => {
-                    let price = price(scene.arm(), settings.objective, &path, scene.grid().step());
-                    leader.budget.found(price);
-                    paths.push((price, path));
+                    let estimate =
+                        estimated_cost(scene.arm(), settings.objective, &path, scene.grid().step());
+                    local.budget.found(estimate);
+                    paths.push((estimate, path));
                 }
                 Err(Exhausted::Spent) => break,
                 Err(Exhausted::Failed(error)) => return Err(error),
             }
         }
-        Ok(leader.found(paths, MOST_MOTIONS))
+        Ok(local.found(paths, MOST_MOTIONS))
     }
 }
 
@@ -147,7 +148,7 @@ enum Target<'a> {
 
 /// One run from one start.
 struct Follower<'a> {
-    guide: &'a mut Guide,
+    guide: &'a mut NavigationFunction,
     target: Target<'a>,
     /// Evaluations after which the run ends.
     most: usize,
@@ -155,25 +156,29 @@ struct Follower<'a> {
 
 impl Follower<'_> {
     /// A path from `start` to the goal; `None` where the run gets nowhere.
-    fn path(self, leader: &mut Leader<'_>, start: &[f64]) -> Result<Option<Vec<Configuration>>, Exhausted> {
-        let reach = leader.scene.arm().reach()[1];
-        let begun = leader.budget.made();
-        let steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
+    fn path(
+        self,
+        local: &mut LocalPlanner<'_>,
+        start: &[f64],
+    ) -> Result<Option<Vec<Configuration>>, Exhausted> {
+        let reach = local.scene.arm().reach()[1];
+        let begun = local.budget.made();
+        let steps = ((STRIDE * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
         let mut path = vec![Configuration::from(start)];
         let mut troubles = 0;
-        while troubles < MOST_TROUBLES && leader.budget.made() - begun < self.most {
+        while troubles < MOST_TROUBLES && local.budget.made() - begun < self.most {
             // Every round counts, so that the budget ends them.
-            leader.budget.spend(1)?;
+            local.budget.spend(1)?;
             let from = path[path.len() - 1].clone();
-            let Some(cell) = self.guide.cell(leader.tip(&from)) else { return Ok(None) };
-            self.guide.repair(cell, leader.budget.monitor)?;
+            let Some(cell) = self.guide.cell(local.tip(&from)) else { return Ok(None) };
+            self.guide.repair(cell, local.budget.monitor)?;
             let left = self.guide.cost_to_go(cell);
             if left.is_infinite() {
-                return Err(PlanError::NotFound { step: leader.scene.grid().step() }.into());
+                return Err(PlanError::NotFound { step: local.scene.grid().step() }.into());
             }
-            let goal = self.nearest_end(leader, &from);
-            if self.is_near(leader, &from, reach)
-                && let Some(last) = self.finish(leader, &from)?
+            let goal = self.nearest_end(local, &from);
+            if self.is_near(local, &from, reach)
+                && let Some(last) = self.finish(local, &from)?
             {
                 path.extend(last);
                 return Ok(Some(path));
@@ -181,12 +186,12 @@ impl Follower<'_> {
             let ahead = self.guide.ahead(cell, steps);
             let tip = self.guide.point(ahead);
             let share = (STRIDE * reach / left.max(STRIDE * reach)).min(1.0);
-            let on = if ahead == cell { None } else { self.led(leader, &from, tip, &goal, share, HALVINGS)? };
+            let on = if ahead == cell { None } else { self.led(local, &from, tip, &goal, share, HALVINGS)? };
             match on {
                 Some(places) => path.extend(places),
                 None => {
                     troubles += 1;
-                    self.guide.raise(ahead, 2 * steps);
+                    self.guide.penalise(ahead, 2 * steps);
                     path.truncate(path.len().saturating_sub(BACK * (1 + troubles % 3)).max(1));
                 }
             }
@@ -197,7 +202,7 @@ impl Follower<'_> {
     /// Certified turns from `from`, left out, until the tip is at `tip`.
     fn led(
         &self,
-        leader: &mut Leader<'_>,
+        local: &mut LocalPlanner<'_>,
         from: &[f64],
         tip: Point,
         goal: &Option<Configuration>,
@@ -205,58 +210,67 @@ impl Follower<'_> {
         halvings: usize,
     ) -> Result<Option<Vec<Configuration>>, Exhausted> {
         // Drawn to where it has to be in the end, as far as the tip is led there.
-        let towards = goal.as_ref().map(|goal| leader.scene.arm().nearest_turn(from, goal));
+        let towards = goal.as_ref().map(|goal| local.scene.arm().nearest_turn(from, goal));
         let around: Configuration = towards.map_or_else(|| from.into(), |goal| lerp(from, &goal, share));
-        if let Some(q) = leader.by_swarm(from, &around, tip, RADIUS, SWARM)? {
+        if let Some(q) = local.by_swarm(from, &around, tip, RADIUS, SWARM)? {
             return Ok(Some(vec![q]));
         }
         if halvings == 0 {
-            let found = leader.by_swarm(from, from, tip, FAR, SWARM)?;
+            let found = local.by_swarm(from, from, tip, FAR, SWARM)?;
             return Ok(found.map(|q| vec![q]));
         }
-        let half = leader.tip(from).lerp(tip, 0.5);
-        let Some(mut places) = self.led(leader, from, half, goal, 0.5 * share, halvings - 1)? else {
+        let half = local.tip(from).lerp(tip, 0.5);
+        let Some(mut places) = self.led(local, from, half, goal, 0.5 * share, halvings - 1)? else {
             return Ok(None);
         };
         let middle = places[places.len() - 1].clone();
-        let Some(more) = self.led(leader, &middle, tip, goal, share, halvings - 1)? else { return Ok(None) };
+        let Some(more) = self.led(local, &middle, tip, goal, share, halvings - 1)? else { return Ok(None) };
         places.extend(more);
         Ok(Some(places))
     }
 
     /// The nearest configuration of the goal, for arms that have to be drawn to it.
-    fn nearest_end(&self, leader: &Leader<'_>, from: &[f64]) -> Option<Configuration> {
+    fn nearest_end(&self, local: &LocalPlanner<'_>, from: &[f64]) -> Option<Configuration> {
         match self.target {
             Target::Configurations(goals) if from.len() > 2 => {
-                self.by_distance(leader, from, goals).into_iter().next()
+                self.by_distance(local, from, goals).into_iter().next()
             }
             _ => None,
         }
     }
 
-    fn by_distance(&self, leader: &Leader<'_>, from: &[f64], goals: &[Configuration]) -> Vec<Configuration> {
+    fn by_distance(
+        &self,
+        local: &LocalPlanner<'_>,
+        from: &[f64],
+        goals: &[Configuration],
+    ) -> Vec<Configuration> {
         let mut goals: Vec<Configuration> =
-            goals.iter().map(|goal| leader.scene.arm().nearest_turn(from, goal)).collect();
+            goals.iter().map(|goal| local.scene.arm().nearest_turn(from, goal)).collect();
         goals.sort_by(|a, b| joint_distance(from, a).total_cmp(&joint_distance(from, b)));
         goals
     }
 
-    fn is_near(&self, leader: &Leader<'_>, from: &[f64], reach: f64) -> bool {
-        let tip = leader.tip(from);
+    fn is_near(&self, local: &LocalPlanner<'_>, from: &[f64], reach: f64) -> bool {
+        let tip = local.tip(from);
         let is_near = |goal: Point| goal.distance(tip) <= NEAR * STRIDE * reach;
         match self.target {
             Target::Tip(goal) => is_near(goal),
-            Target::Configurations(goals) => goals.iter().any(|goal| is_near(leader.tip(goal))),
+            Target::Configurations(goals) => goals.iter().any(|goal| is_near(local.tip(goal))),
         }
     }
 
     /// The last turns to the goal, where they are certified.
-    fn finish(&self, leader: &mut Leader<'_>, from: &[f64]) -> Result<Option<Vec<Configuration>>, Exhausted> {
+    fn finish(
+        &self,
+        local: &mut LocalPlanner<'_>,
+        from: &[f64],
+    ) -> Result<Option<Vec<Configuration>>, Exhausted> {
         match self.target {
-            Target::Tip(tip) => Ok(leader.by_least_squares(from, from, tip)?.map(|q| vec![q])),
+            Target::Tip(tip) => Ok(local.by_least_squares(from, from, tip)?.map(|q| vec![q])),
             Target::Configurations(goals) => {
-                for goal in self.by_distance(leader, from, goals) {
-                    if let Some(last) = leader.chain(from, &goal)? {
+                for goal in self.by_distance(local, from, goals) {
+                    if let Some(last) = local.connect_by_steps(from, &goal)? {
                         return Ok(Some(last));
                     }
                 }

@@ -1,31 +1,22 @@
-//! Every planner in a file of its own, the list of them ([`all`]), and what several of them share: graphs over (place, posture), paths over and off the grid
+//! Every planner in a file of its own, the list of them ([`all`]), and what several of them share: paths over and off the grid
 //! (`over_grid`, `off_grid`), what is led by the tip's way (`tip_guided`), swarms over whole candidates (`swarms`).
 
 mod by_name;
 mod cbpso;
-mod changing_graph;
-mod contacts;
 mod dstar;
 mod dstar_pso;
 mod guided_rrt_connect;
 mod ik_pso;
-mod nearest;
 mod nsc_pso;
 mod off_grid;
 mod optimal;
 mod over_grid;
 mod paper;
-mod posture_graph;
 mod pso;
-mod pull;
-mod sheets;
+mod shortcut;
 mod shortlist;
 mod swarms;
 mod tip_guided;
-mod union_graph;
-
-pub(crate) use changing_graph::{ChangingGraph, Goal};
-pub(crate) use sheets::Kept;
 
 pub use by_name::NameError;
 pub use cbpso::CbpsoPlanner;

@@ -3,7 +3,9 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::swarms::{Choice, Hunt, MOST_EVALUATIONS, Patience, Track, certified, places};
+use super::swarms::{
+    EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, certified, places,
+};
 use crate::arm::Configuration;
 use crate::path::JointPath;
 use crate::planning::{
@@ -96,9 +98,9 @@ impl Planner for NscPsoPlanner {
         let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
         let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
         monitor.stage(Stage::JointPath);
-        let choice = Choice::new(scene.arm(), ends);
-        let track = Track::new(scene, settings.objective, ends.keep_posture);
-        let mut hunt: Hunt<'_, Vec<Configuration>> = Hunt::new(self.evaluations, *monitor);
+        let choice = EndpointChoice::new(scene.arm(), ends);
+        let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
+        let mut incumbent: Incumbent<'_, Vec<Configuration>> = Incumbent::new(self.evaluations, *monitor);
         let bounds = choice.bounds(self.waypoints, &[]).map_err(|error| bad(error.to_string()))?;
         let swarm_settings = SwarmSettings {
             iterations: ITERATIONS,
@@ -108,22 +110,22 @@ impl Planner for NscPsoPlanner {
         let smoothing = Smoothing::new(self.waypoints);
         let joints = choice.ranges().len();
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        while !hunt.is_over() {
+        while !incumbent.is_over() {
             let first = match self.initialisation {
                 Initialisation::StepCost => {
-                    shaken(&choice, &track, self.waypoints, swarm_settings.particles, &mut rng)
+                    shaken(&choice, &path_objective, self.waypoints, swarm_settings.particles, &mut rng)
                 }
                 Initialisation::Uniform => Vec::new(),
             };
             let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
                 .map_err(|error| bad(error.to_string()))?;
-            let mut patience = Patience::new();
-            while !hunt.is_over() && patience.lasts(swarm.best().1) {
+            let mut stagnation = Stagnation::new();
+            while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
                 let mut objective = |x: &[f64]| {
                     let places = places(x, &choice);
-                    hunt.judge(
-                        || track.violation(&places),
-                        || track.cost(&places),
+                    incumbent.evaluate(
+                        || path_objective.violation(&places),
+                        || path_objective.cost(&places),
                         || certified(scene, places.clone()),
                     )
                 };
@@ -132,7 +134,7 @@ impl Planner for NscPsoPlanner {
                 });
             }
         }
-        let (places, effort) = hunt.end()?;
+        let (places, effort) = incumbent.end()?;
         let path = CertifiedPath::as_found(JointPath(places));
         Ok(Found::new(vec![Candidate::along(scene, path)], Pick::First).with_effort(effort))
     }
@@ -140,8 +142,8 @@ impl Planner for NscPsoPlanner {
 
 /// Particles on straight ways, shaken where these are in contact.
 fn shaken(
-    choice: &Choice,
-    track: &Track<'_>,
+    choice: &EndpointChoice,
+    path_objective: &PathObjective<'_>,
     waypoints: usize,
     count: usize,
     rng: &mut ChaCha8Rng,
@@ -153,8 +155,9 @@ fn shaken(
             let coordinate = chosen.next().unwrap_or(0.0);
             let [start, goal] = choice.pair(coordinate);
             let at = |k: usize| start.lerp(goal, k as f64 / (waypoints + 1) as f64);
-            let costs =
-                normalised(&(1..=waypoints).map(|k| track.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>());
+            let costs = normalised(
+                &(1..=waypoints).map(|k| path_objective.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>(),
+            );
             let shake = SHAKE * i as f64 / count as f64;
             let noise: Vec<Vec<f64>> = (0..joints).map(|_| smooth_noise(waypoints, rng)).collect();
             let mut position = Vec::with_capacity(waypoints * joints + 1);

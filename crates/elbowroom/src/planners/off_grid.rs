@@ -1,14 +1,14 @@
 //! Paths that leave the grid of the tip: the shortest over what is surely free of the plane of both joints, pulled
 //! taut; and paths of the grid, pulled taut in the plane of the tip.
 
-use super::pull::{Plane, Pull};
+use super::shortcut::{Plane, Shortcut};
 use crate::arm::joint_distance;
-use crate::decomposition::{JointChart, Walls, sheet_ranges};
+use crate::decomposition::{Approximation, JointSpaceCells, branch_ranges};
 use crate::geometry::Point;
-use crate::path::{JointPath, straight_move_is_free};
-use crate::planning::{Endpoints, Monitor, Objective, PlanError, Stage, joint_path, measure_of};
+use crate::mesh::{Geodesic, Measure, MeshPoint, geodesic};
+use crate::path::{JointPath, joint_path, straight_move_is_free};
+use crate::planning::{Endpoints, Monitor, Objective, PlanError, Stage, measure_of};
 use crate::scene::TwoLinkScene;
-use crate::surface::{Measure, SurfacePlace, TautPath, taut_path};
 use crate::trajectory::SpeedLimits;
 use crate::verify::images;
 
@@ -66,12 +66,12 @@ pub(crate) fn over_joints(
         monitor.stage(Stage::CostToGo);
         let Some(path) = shortest(scene, ends, measure, margin, distance, monitor)? else { continue };
         monitor.stage(Stage::JointPath);
-        let pull = Pull { scene, plane: Plane::Joints(weights), margin };
-        let thinned = pull.thinned(&path);
+        let shortcut = Shortcut { scene, plane: Plane::Joints(weights), margin };
+        let thinned = shortcut.thinned(&path);
         if enough.is_some_and(|enough| thinned.length() <= enough) {
             return Ok(vec![thinned]);
         }
-        let taut = pull.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
+        let taut = shortcut.taut(&path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
         for path in [thinned, taut] {
             if !found.contains(&path) {
                 found.push(path);
@@ -93,8 +93,8 @@ pub(crate) fn over_tips(
     monitor.stage(Stage::JointPath);
     let mut found: Vec<JointPath> = Vec::new();
     for margin in MARGINS {
-        let pull = Pull { scene, plane: Plane::Tip(TIP_TURN * scene.grid().step()), margin };
-        let path = pull.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
+        let shortcut = Shortcut { scene, plane: Plane::Tip(TIP_TURN * scene.grid().step()), margin };
+        let path = shortcut.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
         if !found.contains(&path) {
             found.push(path);
         }
@@ -113,20 +113,22 @@ fn shortest(
     monitor: &dyn Monitor,
 ) -> Result<Option<JointPath>, PlanError> {
     let keep_going = || monitor.keep_going();
-    let walls = Walls { inside: false, distance };
+    let approximation = Approximation::outer(distance);
     let mut best: Option<(f64, JointPath)> = None;
     let [starts, goals] = ends.pairs();
-    for range in sheet_ranges(scene, &starts, ends.keep_posture) {
-        let chart = JointChart::new(scene, margin, range, walls, &keep_going).ok_or(PlanError::Stopped)?;
-        let places = |pairs: &[[f64; 2]]| -> Vec<([f64; 2], SurfacePlace)> {
-            pairs.iter().filter_map(|q| Some((*q, chart.place(q)?))).collect()
+    for range in branch_ranges(scene, &starts, ends.keep_posture) {
+        let decomposition = JointSpaceCells::new(scene, margin, range, approximation, &keep_going)
+            .ok_or(PlanError::Stopped)?;
+        let places = |pairs: &[[f64; 2]]| -> Vec<([f64; 2], MeshPoint)> {
+            pairs.iter().filter_map(|q| Some((*q, decomposition.place(q)?))).collect()
         };
         let (starts, goals) = (places(&starts), places(&goals));
         let [from, to] =
             [&starts, &goals].map(|ends| ends.iter().map(|(_, place)| *place).collect::<Vec<_>>());
         let at_goals: Vec<Point> = to.iter().map(|place| place.point).collect();
-        let images = images(scene, &chart.sewn.surface, &at_goals);
-        let Some(path) = taut_path(&chart.sewn.surface, &from, &to, measure, &images, &keep_going) else {
+        let images = images(scene, &decomposition.connected.mesh, &at_goals);
+        let Some(path) = geodesic(&decomposition.connected.mesh, &from, &to, measure, &images, &keep_going)
+        else {
             if !keep_going() {
                 return Err(PlanError::Stopped);
             }
@@ -142,7 +144,7 @@ fn shortest(
 }
 
 /// `path` in configurations, from the start it begins at; turns of continuous joints are counted.
-fn along(path: &TautPath, starts: &[([f64; 2], SurfacePlace)]) -> Option<JointPath> {
+fn along(path: &Geodesic, starts: &[([f64; 2], MeshPoint)]) -> Option<JointPath> {
     let first = path.places.first()?;
     let (start, place) = starts.iter().find(|(_, place)| place == first)?;
     let turned = [start[0] - place.point.x, start[1] - place.point.y];

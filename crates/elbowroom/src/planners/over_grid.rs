@@ -1,7 +1,6 @@
 //! Certified paths over the grid that are worth being made into motions: D*'s, and those that a swarm draws over its cost-to-go.
 
 use super::off_grid::{Search, over_joints};
-use super::posture_graph::PostureGraph;
 use super::shortlist::shortlist;
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
@@ -9,11 +8,9 @@ use crate::path::JointPath;
 use crate::planning::{
     Candidate, CertifiedPath, Effort, Found, Objective, Pick, PlanError, Problem, Stage, least_cost,
 };
-use crate::search::{Dstar, Graph, Progress, Until};
+use crate::roadmap::PostureGraph;
+use crate::search::{Dstar, Graph, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
-
-/// Expansions of D* between two looks at the monitor: a few milliseconds.
-const EXPANSIONS_PER_LOOK: usize = 1_000;
 
 /// By how much a tip path may be longer than the shortest and still be chosen for what the arm pays, as a share.
 pub const NEARLY_EQUAL: f64 = 0.01;
@@ -93,8 +90,8 @@ pub(super) fn paths_over_grid(
         field.insert_goal(goal, 0.0)?;
     }
     for &start in &starts {
-        while field.expand(&graph, Until::Settled(start), EXPANSIONS_PER_LOOK) == Progress::Paused {
-            problem.go_on()?;
+        if !field.settle(&graph, Until::Settled(start), &|| monitor.keep_going()) {
+            return Err(PlanError::Stopped);
         }
     }
     let least = starts.iter().map(|&start| field.cost_to_go(start)).fold(f64::INFINITY, f64::min);

@@ -3,19 +3,16 @@
 
 use thiserror::Error;
 
-use super::union_graph::UnionGraph;
 use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
 use crate::planning::{Monitor, Stage, standing_still};
+use crate::roadmap::UnionGraph;
 use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
-use crate::search::{Dstar, GoalError, Graph, Progress, Until};
+use crate::search::{Dstar, GoalError, Graph, Until};
 use crate::swarm::{GuidedSwarmError, GuidedSwarmSettings, Terrain, draw_paths};
 use crate::trajectory::{Motion, MotionError, durations_by_length, quintic_through, random_vias, vias_at};
-
-/// Expansions of D* between two looks at the monitor: a few milliseconds.
-const EXPANSIONS_PER_LOOK: usize = 10_000;
 
 /// Which path over the cost-to-go is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,10 +147,8 @@ pub fn plan_as_in_paper(
     let start_node = if start == goal { goal_node } else { graph.node_at(start) };
     let mut field = Dstar::new(graph.len());
     field.insert_goal(goal_node, 0.0)?;
-    while field.expand(&graph, Until::WholeField, EXPANSIONS_PER_LOOK) == Progress::Paused {
-        if !monitor.keep_going() {
-            return Err(PaperError::Stopped);
-        }
+    if !field.settle(&graph, Until::WholeField, &|| monitor.keep_going()) {
+        return Err(PaperError::Stopped);
     }
     let cost_to_go = field.cost_to_go(start_node);
     if cost_to_go.is_infinite() {

@@ -3,7 +3,10 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::swarms::{Choice, Hunt, MOST_EVALUATIONS, Patience, Track, around_straight, certified, places};
+use super::swarms::{
+    EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, around_straight, certified,
+    places,
+};
 use crate::arm::Configuration;
 use crate::path::JointPath;
 use crate::planning::{
@@ -78,9 +81,9 @@ impl Planner for PsoPlanner {
         let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
         let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
         monitor.stage(Stage::JointPath);
-        let choice = Choice::new(scene.arm(), ends);
-        let track = Track::new(scene, settings.objective, ends.keep_posture);
-        let mut hunt: Hunt<'_, Vec<Configuration>> = Hunt::new(self.evaluations, *monitor);
+        let choice = EndpointChoice::new(scene.arm(), ends);
+        let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
+        let mut incumbent: Incumbent<'_, Vec<Configuration>> = Incumbent::new(self.evaluations, *monitor);
         let bounds = choice.bounds(self.vias, &[]).map_err(|error| bad(error.to_string()))?;
         let swarm_settings = SwarmSettings {
             neighbourhood: self.neighbourhood,
@@ -88,23 +91,23 @@ impl Planner for PsoPlanner {
             ..SwarmSettings::default()
         };
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        while !hunt.is_over() {
+        while !incumbent.is_over() {
             let first = around_straight(&choice, self.vias, swarm_settings.particles / 2, &mut rng);
             let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
                 .map_err(|error| bad(error.to_string()))?;
-            let mut patience = Patience::new();
-            while !hunt.is_over() && patience.lasts(swarm.best().1) {
+            let mut stagnation = Stagnation::new();
+            while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
                 swarm.step(&mut |x: &[f64]| {
                     let places = places(x, &choice);
-                    hunt.judge(
-                        || track.violation(&places),
-                        || track.cost(&places),
+                    incumbent.evaluate(
+                        || path_objective.violation(&places),
+                        || path_objective.cost(&places),
                         || certified(scene, places.clone()),
                     )
                 });
             }
         }
-        let (places, effort) = hunt.end()?;
+        let (places, effort) = incumbent.end()?;
         let path = CertifiedPath::as_found(JointPath(places));
         Ok(Found::new(vec![Candidate::along(scene, path)], Pick::First).with_effort(effort))
     }

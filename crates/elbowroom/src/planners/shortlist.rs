@@ -6,10 +6,10 @@ use crate::planning::Objective;
 use crate::scene::Scene;
 use crate::trajectory::{SpeedLimits, fastest_durations, vias_at};
 
-/// Paths whose price differs by no more than about this share are the same to the objective: clearance decides.
-const SAME_PRICE: f64 = 1e-9;
+/// Paths whose estimated cost differs by no more than about this share are the same to the objective: clearance decides.
+const SAME_COST: f64 = 1e-9;
 
-/// The `most` paths of least price, cheapest first; among equal ones those with more clearance, then earlier ones.
+/// The `most` paths of least estimated cost, cheapest first; among equal ones those with more clearance, then earlier ones.
 pub(crate) fn shortlist(
     scene: &Scene,
     limits: &[SpeedLimits],
@@ -17,20 +17,20 @@ pub(crate) fn shortlist(
     paths: Vec<(f64, JointPath)>,
     most: usize,
 ) -> Vec<(f64, JointPath)> {
-    let price = |tip_cost: f64, path: &JointPath| match objective {
+    let estimated_cost = |tip_cost: f64, path: &JointPath| match objective {
         Objective::Tip => tip_cost,
         Objective::Joint => JointPath(corners(scene, path)).length(),
         Objective::Time => fastest_durations(&vias_at(&corners(scene, path)), limits).iter().sum(),
     };
-    let mut priced: Vec<(f64, f64, (f64, JointPath))> = paths
+    let mut estimated: Vec<(f64, f64, (f64, JointPath))> = paths
         .into_iter()
-        .map(|(tip_cost, path)| (price(tip_cost, &path), clearance(scene, &path), (tip_cost, path)))
+        .map(|(tip_cost, path)| (estimated_cost(tip_cost, &path), clearance(scene, &path), (tip_cost, path)))
         .collect();
-    let least = priced.iter().map(|(price, ..)| *price).fold(f64::INFINITY, f64::min);
-    // Steps of rounding's size, so that sums of the same steps in another order are the same price.
-    let step = |price: f64| (price / (SAME_PRICE * least.max(f64::MIN_POSITIVE))).round();
-    priced.sort_by(|a, b| step(a.0).total_cmp(&step(b.0)).then(b.1.total_cmp(&a.1)));
-    priced.into_iter().map(|(_, _, path)| path).take(most).collect()
+    let least = estimated.iter().map(|(estimate, ..)| *estimate).fold(f64::INFINITY, f64::min);
+    // Steps of rounding's size, so that sums of the same steps in another order are the same estimate.
+    let step = |estimate: f64| (estimate / (SAME_COST * least.max(f64::MIN_POSITIVE))).round();
+    estimated.sort_by(|a, b| step(a.0).total_cmp(&step(b.0)).then(b.1.total_cmp(&a.1)));
+    estimated.into_iter().map(|(_, _, path)| path).take(most).collect()
 }
 
 /// The path without the grid's zigzag, which no motion through it keeps.

@@ -3,10 +3,10 @@
 use super::limits::stated_limits;
 use super::{Endpoints, Monitor, NoPath, Objective, Pace, PlanError, Problem, Stage};
 use crate::arm::JointLimits;
-use crate::decomposition::{JointChart, Walls, sheet_ranges, tip_chart};
+use crate::decomposition::{Approximation, JointSpaceCells, branch_ranges, workspace_cells};
 use crate::geometry::wrap_angle;
+use crate::mesh::{Measure, MeshPoint};
 use crate::scene::TwoLinkScene;
-use crate::surface::{Measure, SurfacePlace};
 use crate::trajectory::SpeedLimits;
 use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
 
@@ -107,12 +107,12 @@ fn tip_bound(
     distance: f64,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<f64, PlanError> {
-    let walls = Walls { inside: true, distance };
+    let approximation = Approximation::inner(distance);
     let [starts, goals] = ends.pairs();
-    let chart = tip_chart(scene, walls, keep_going).ok_or(PlanError::Stopped)?;
-    let place = |q: &[f64; 2]| Some((*q, chart.place(scene.arm().tip(q))?));
+    let decomposition = workspace_cells(scene, approximation, keep_going).ok_or(PlanError::Stopped)?;
+    let place = |q: &[f64; 2]| Some((*q, decomposition.place(scene.arm().tip(q))?));
     if let Some(starts) = starts.iter().map(place).collect::<Option<Vec<_>>>() {
-        let claim = OpenTips { surface: &chart.surface, starts: &starts, goals: &goals };
+        let claim = OpenTips { mesh: &decomposition.mesh, starts: &starts, goals: &goals };
         match bound_over_tips(scene, &claim, keep_going) {
             Ok(Reachability::AtLeast { cost, .. }) => return Ok(cost),
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -139,21 +139,22 @@ fn with_walls(
     distance: f64,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<OverJoints, BoundError> {
-    let walls = Walls { inside: true, distance };
+    let approximation = Approximation::inner(distance);
     let mut least = f64::INFINITY;
     let mut open = Vec::new();
     let [starts, goals] = ends.pairs();
-    let ranges = sheet_ranges(scene, &starts, ends.keep_posture);
-    // A start on no sheet could go anywhere, for all that is known.
+    let ranges = branch_ranges(scene, &starts, ends.keep_posture);
+    // A start on no branch could go anywhere, for all that is known.
     let on_none = |q: &&[f64; 2]| !ranges.iter().any(|range| is_in(scene, *range, q));
     if let Some(q) = starts.iter().find(on_none) {
         return Err(BoundError::Place { q: *q });
     }
     for range in ranges {
-        let chart = JointChart::new(scene, 0.0, range, walls, keep_going).ok_or(BoundError::Stopped)?;
-        let starts = on_chart(scene, &chart, range, &starts)?;
+        let decomposition =
+            JointSpaceCells::new(scene, 0.0, range, approximation, keep_going).ok_or(BoundError::Stopped)?;
+        let starts = on_chart(scene, &decomposition, range, &starts)?;
         let claim = OpenJoints {
-            surface: &chart.sewn.surface,
+            mesh: &decomposition.connected.mesh,
             starts: &starts,
             goals: &goals,
             keeps_posture: ends.keep_posture,
@@ -161,10 +162,12 @@ fn with_walls(
         match bound_over_joints(scene, &claim, measure, keep_going)? {
             Reachability::AtLeast { cost, .. } => least = least.min(cost),
             Reachability::Parted => {
-                let reached = chart.sewn.surface.reached_from(starts.iter().map(|(_, place)| place.cell));
-                let cells = (0..chart.sewn.surface.len()).filter(|&cell| reached[cell]);
-                let corners =
-                    |cell| chart.sewn.surface.sides(cell).iter().map(|side| [side.from.x, side.from.y]);
+                let reached =
+                    decomposition.connected.mesh.reached_from(starts.iter().map(|(_, place)| place.cell));
+                let cells = (0..decomposition.connected.mesh.len()).filter(|&cell| reached[cell]);
+                let corners = |cell| {
+                    decomposition.connected.mesh.sides(cell).iter().map(|side| [side.from.x, side.from.y])
+                };
                 open.extend(cells.map(|cell| corners(cell).collect()));
             }
         }
@@ -172,17 +175,17 @@ fn with_walls(
     Ok(if least.is_finite() { OverJoints::AtLeast(least) } else { OverJoints::Parted(open) })
 }
 
-/// Where those of `places` that lie in `range` are on the chart.
+/// Where those of `places` that lie in `range` are on the mesh.
 ///
 /// # Errors
 /// [`BoundError::Place`] where one should be on it and is not.
 fn on_chart(
     scene: TwoLinkScene<'_>,
-    chart: &JointChart,
+    decomposition: &JointSpaceCells,
     range: [f64; 2],
     places: &[[f64; 2]],
-) -> Result<Vec<([f64; 2], SurfacePlace)>, BoundError> {
-    let place = |q: &[f64; 2]| Ok((*q, chart.place(q).ok_or(BoundError::Place { q: *q })?));
+) -> Result<Vec<([f64; 2], MeshPoint)>, BoundError> {
+    let place = |q: &[f64; 2]| Ok((*q, decomposition.place(q).ok_or(BoundError::Place { q: *q })?));
     places.iter().filter(|q| is_in(scene, range, q)).map(place).collect()
 }
 

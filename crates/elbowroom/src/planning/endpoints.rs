@@ -3,10 +3,11 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::SeedableRng;
 
-use super::{Monitor, PlanError, pairs};
+use super::{Monitor, PlanError};
 use crate::arm::{Configuration, Joint, JointLimits, Posture};
 use crate::free_space::{self, NotFree, Reason, reason_against};
 use crate::geometry::Point;
+use crate::path::pairs;
 use crate::random::within;
 use crate::scene::{Place, Scene, Task, TaskPosture, TwoLinkError};
 

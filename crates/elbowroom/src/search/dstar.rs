@@ -6,6 +6,9 @@ use super::open_list::OpenList;
 use super::ring::Ring;
 use super::{GoalError, Graph};
 
+/// Expansions between two questions whether to go on: a few milliseconds on the slowest of graphs.
+const EXPANSIONS_PER_LOOK: usize = 1_000;
+
 /// D*: the cost-to-go of the nodes of a graph, and the way there, repaired where costs change.
 ///
 /// After [`expand`](Self::expand) is done with the whole field, cost-to-go equals that of
@@ -153,6 +156,16 @@ impl Dstar {
             self.nodes.set_cost(node, cost);
             self.open.insert(node, cost);
         }
+    }
+
+    /// Expands nodes until `until` holds, asking `keep_going` every few milliseconds; whether it holds, or was told no.
+    pub fn settle<G: Graph>(&mut self, graph: &G, until: Until, keep_going: &dyn Fn() -> bool) -> bool {
+        while self.expand(graph, until, EXPANSIONS_PER_LOOK) == Progress::Paused {
+            if !keep_going() {
+                return false;
+            }
+        }
+        true
     }
 
     /// Expands nodes until `until` holds or `budget` nodes are expanded.

@@ -5,8 +5,8 @@ use thiserror::Error;
 use super::blocked::Blocked;
 use crate::arm::JointLimits;
 use crate::geometry::{Point, Vector};
+use crate::mesh::{Geodesic, Measure, MeshPoint, NavigationMesh, geodesic};
 use crate::scene::TwoLinkScene;
-use crate::surface::{Measure, Surface, SurfacePlace, TautPath, taut_path};
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
 const ANGLE_ROUNDING: f64 = 1e-9;
@@ -14,15 +14,15 @@ const ANGLE_ROUNDING: f64 = 1e-9;
 /// Share of a bound that is given away for the rounding of sums.
 pub(super) const SUM_ROUNDING: f64 = 1e-9;
 
-/// The claim that a surface over both joints, x the first and y the second (rad), leaves open all that is free and
+/// The claim that a mesh over both joints, x the first and y the second (rad), leaves open all that is free and
 /// can be reached.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenJoints<'a> {
     /// The cells and their walls.
-    pub surface: &'a Surface,
+    pub mesh: &'a NavigationMesh,
     /// Where each start is.
-    pub starts: &'a [([f64; 2], SurfacePlace)],
-    /// The goals; where they are on the surface is found out.
+    pub starts: &'a [([f64; 2], MeshPoint)],
+    /// The goals; where they are on the mesh is found out.
     pub goals: &'a [[f64; 2]],
     /// Whether the posture must not change: walls may stand at full stretch and fold.
     pub keeps_posture: bool,
@@ -38,7 +38,7 @@ pub enum Reachability {
         /// In terms of the measure.
         cost: f64,
         /// The cheapest path over what the claim leaves open, which may not be free.
-        path: TautPath,
+        path: Geodesic,
     },
 }
 
@@ -68,7 +68,7 @@ pub enum BoundError {
         q: [f64; 2],
     },
     /// A seam joins places that are not the same to the arm.
-    #[error("side {side} of cell {cell} is sewn to another place")]
+    #[error("side {side} of cell {cell} is connected to another place")]
     Seam {
         /// Which cell.
         cell: usize,
@@ -76,7 +76,7 @@ pub enum BoundError {
         side: usize,
     },
     /// The walls leave a way that the search for the shortest did not find.
-    #[error("the shortest way over the surface was lost in rounding")]
+    #[error("the shortest way over the mesh was lost in rounding")]
     Lost,
     /// `keep_going` said no.
     #[error("stopped before the bound was proved")]
@@ -87,7 +87,7 @@ pub enum BoundError {
 /// none: every wall that can be reached is shown to be blocked, and the shortest way among them is exact.
 ///
 /// The walls may come from anywhere; a motion that touches nothing passes none of them, so that it
-/// is a path on the surface.
+/// is a path on the mesh.
 ///
 /// # Errors
 /// [`BoundError`]
@@ -98,33 +98,33 @@ pub fn bound_over_joints(
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
     for (q, place) in claim.starts {
-        if !stands_at(scene, q, place, claim.surface) {
+        if !stands_at(scene, q, place, claim.mesh) {
             return Err(BoundError::Place { q: *q });
         }
     }
-    let surface = claim.surface;
-    check_seams(surface, |j, way| match scene.arm().joints()[j].limits {
+    let mesh = claim.mesh;
+    check_seams(mesh, |j, way| match scene.arm().joints()[j].limits {
         JointLimits::Continuous => (way - TAU * (way / TAU).round()).abs() <= ANGLE_ROUNDING,
         JointLimits::Range { .. } => way == 0.0,
     })?;
-    let reached = surface.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
+    let reached = mesh.reached_from(claim.starts.iter().map(|(_, place)| place.cell));
     let blocked = Blocked::new(scene);
     let stands = |from: Point, to: Point| {
         at_stop(scene, from, to)
             || (claim.keeps_posture && is_in_line(from) && is_in_line(to) && from.y == to.y)
             || blocked.all_along(&[from.x, from.y], &[to.x, to.y])
     };
-    if let Some([from, to]) = first_gap(surface, &|cell| reached[cell], &stands, keep_going)? {
+    if let Some([from, to]) = first_gap(mesh, &|cell| reached[cell], &stands, keep_going)? {
         return Err(BoundError::Wall { from: [from.x, from.y], to: [to.x, to.y] });
     }
     let angles: Vec<Point> = claim.goals.iter().map(|q| Point::new(q[0], q[1])).collect();
-    let images = images(scene, surface, &angles);
-    let goals = places_of(surface, &reached, &images);
+    let images = images(scene, mesh, &angles);
+    let goals = places_of(mesh, &reached, &images);
     if goals.is_empty() {
         return Ok(Reachability::Parted);
     }
-    let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
-    let Some(path) = taut_path(surface, &starts, &goals, measure, &images, keep_going) else {
+    let starts: Vec<MeshPoint> = claim.starts.iter().map(|(_, place)| *place).collect();
+    let Some(path) = geodesic(mesh, &starts, &goals, measure, &images, keep_going) else {
         return Err(if keep_going() { BoundError::Lost } else { BoundError::Stopped });
     };
     let rounding = 2.0 * measure.of(Vector::new(ANGLE_ROUNDING, ANGLE_ROUNDING));
@@ -133,10 +133,12 @@ pub fn bound_over_joints(
 }
 
 /// Whether every plane goes on beyond its seams as the arm does: moved by what `is_same` allows of each coordinate.
-pub(super) fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> bool) -> Result<(), BoundError> {
-    for cell in 0..surface.len() {
-        for (side, across) in surface.sides(cell).iter().enumerate().filter_map(|(i, s)| Some((i, s.across?)))
-        {
+pub(super) fn check_seams(
+    mesh: &NavigationMesh,
+    is_same: impl Fn(usize, f64) -> bool,
+) -> Result<(), BoundError> {
+    for cell in 0..mesh.len() {
+        for (side, across) in mesh.sides(cell).iter().enumerate().filter_map(|(i, s)| Some((i, s.across?))) {
             let sound = is_same(0, across.shift.x) && is_same(1, across.shift.y);
             if !sound {
                 return Err(BoundError::Seam { cell, side });
@@ -147,10 +149,10 @@ pub(super) fn check_seams(surface: &Surface, is_same: impl Fn(usize, f64) -> boo
 }
 
 /// Every place of cells that matter where one of `points` is: a motion may end in any of them.
-pub(super) fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -> Vec<SurfacePlace> {
+pub(super) fn places_of(mesh: &NavigationMesh, matters: &[bool], points: &[Point]) -> Vec<MeshPoint> {
     let mut places = Vec::new();
-    for cell in (0..surface.len()).filter(|&cell| matters[cell]) {
-        let sides = surface.sides(cell);
+    for cell in (0..mesh.len()).filter(|&cell| matters[cell]) {
+        let sides = mesh.sides(cell);
         let span = |of: fn(&Point) -> f64| {
             let ends = sides.iter().map(|side| of(&side.from));
             ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
@@ -160,15 +162,15 @@ pub(super) fn places_of(surface: &Surface, matters: &[bool], points: &[Point]) -
             (x0 - ANGLE_ROUNDING..=x1 + ANGLE_ROUNDING).contains(&p.x)
                 && (y0 - ANGLE_ROUNDING..=y1 + ANGLE_ROUNDING).contains(&p.y)
         };
-        let held = points.iter().filter(near).filter(|p| surface.holds(cell, **p));
-        places.extend(held.map(|&point| SurfacePlace { cell, point }));
+        let held = points.iter().filter(near).filter(|p| mesh.holds(cell, **p));
+        places.extend(held.map(|&point| MeshPoint { cell, point }));
     }
     places
 }
 
 /// The first wall of the cells that matter that does not stand, looked for on all cores where the pool is compiled in.
 pub(super) fn first_gap(
-    surface: &Surface,
+    mesh: &NavigationMesh,
     matters: &(dyn Fn(usize) -> bool + Sync),
     stands: &(dyn Fn(Point, Point) -> bool + Sync),
     keep_going: &(dyn Fn() -> bool + Sync),
@@ -180,7 +182,7 @@ pub(super) fn first_gap(
         if !keep_going() {
             return Some(Err(BoundError::Stopped));
         }
-        let sides = surface.sides(cell);
+        let sides = mesh.sides(cell);
         let walls = (0..sides.len()).filter(|&i| sides[i].across.is_none());
         let mut lines = walls.map(|i| [sides[i].from, sides[(i + 1) % sides.len()].from]);
         lines.find(|[from, to]| !stands(*from, *to)).map(Ok)
@@ -188,15 +190,15 @@ pub(super) fn first_gap(
     #[cfg(feature = "parallel")]
     let found = {
         use rayon::prelude::*;
-        (0..surface.len()).into_par_iter().find_map_first(gap_of)
+        (0..mesh.len()).into_par_iter().find_map_first(gap_of)
     };
     #[cfg(not(feature = "parallel"))]
-    let found = (0..surface.len()).find_map(gap_of);
+    let found = (0..mesh.len()).find_map(gap_of);
     found.transpose()
 }
 
 /// Whether `place` holds `q`, whole turns of continuous joints aside.
-fn stands_at(scene: TwoLinkScene<'_>, q: &[f64; 2], place: &SurfacePlace, surface: &Surface) -> bool {
+fn stands_at(scene: TwoLinkScene<'_>, q: &[f64; 2], place: &MeshPoint, mesh: &NavigationMesh) -> bool {
     let at = [place.point.x, place.point.y];
     let same = (0..2).all(|j| {
         let apart = at[j] - q[j];
@@ -206,7 +208,7 @@ fn stands_at(scene: TwoLinkScene<'_>, q: &[f64; 2], place: &SurfacePlace, surfac
         };
         (apart - turns).abs() <= ANGLE_ROUNDING
     });
-    same && place.cell < surface.len() && surface.holds(place.cell, place.point)
+    same && place.cell < mesh.len() && mesh.holds(place.cell, place.point)
 }
 
 /// Whether the line from `from` to `to` lies at or beyond a stop of a joint.
@@ -224,10 +226,10 @@ fn is_in_line(point: Point) -> bool {
 }
 
 /// The goals in every turn of continuous joints that can be next to a cell.
-pub(crate) fn images(scene: TwoLinkScene<'_>, surface: &Surface, goals: &[Point]) -> Vec<Point> {
+pub(crate) fn images(scene: TwoLinkScene<'_>, mesh: &NavigationMesh, goals: &[Point]) -> Vec<Point> {
     let mut low = [f64::INFINITY; 2];
     let mut high = [f64::NEG_INFINITY; 2];
-    for side in (0..surface.len()).flat_map(|cell| surface.sides(cell)) {
+    for side in (0..mesh.len()).flat_map(|cell| mesh.sides(cell)) {
         for (j, v) in [side.from.x, side.from.y].into_iter().enumerate() {
             low[j] = low[j].min(v);
             high[j] = high[j].max(v);

@@ -4,20 +4,20 @@ use super::blocked::Blocked;
 use super::bound::{BoundError, Reachability, SUM_ROUNDING, check_seams, first_gap, places_of};
 use crate::arm::{JointLimits, TwoLink};
 use crate::geometry::Point;
+use crate::mesh::{Measure, MeshPoint, NavigationMesh, geodesic};
 use crate::scene::TwoLinkScene;
-use crate::surface::{Measure, Surface, SurfacePlace, taut_path};
 
 /// Rounding that a place of the tip may have gone through, as a share of the greatest coordinate.
 const TIP_ROUNDING: f64 = 1e-12;
 
-/// The claim that a surface over the world's plane (m) leaves open every place that the tip can be at.
+/// The claim that a mesh over the world's plane (m) leaves open every place that the tip can be at.
 #[derive(Debug, Clone, Copy)]
 pub struct OpenTips<'a> {
     /// The cells and their walls.
-    pub surface: &'a Surface,
+    pub mesh: &'a NavigationMesh,
     /// Where each start is.
-    pub starts: &'a [([f64; 2], SurfacePlace)],
-    /// The goals; where they are on the surface is found out.
+    pub starts: &'a [([f64; 2], MeshPoint)],
+    /// The goals; where they are on the mesh is found out.
     pub goals: &'a [[f64; 2]],
 }
 
@@ -32,12 +32,12 @@ pub fn bound_over_tips(
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
     let arm = scene.arm();
-    let (surface, [_, reach]) = (claim.surface, arm.reach());
+    let (mesh, [_, reach]) = (claim.mesh, arm.reach());
     let size = arm.base().x.abs() + arm.base().y.abs() + reach;
-    check_seams(surface, |_, way| way == 0.0)?;
+    check_seams(mesh, |_, way| way == 0.0)?;
     for (q, place) in claim.starts {
         let near = place.point.distance(arm.tip(q)) <= TIP_ROUNDING * size;
-        if !(near && place.cell < surface.len() && surface.holds(place.cell, place.point)) {
+        if !(near && place.cell < mesh.len() && mesh.holds(place.cell, place.point)) {
             return Err(BoundError::Place { q: *q });
         }
     }
@@ -53,14 +53,14 @@ pub fn bound_over_tips(
         // A disc holds the line between two of its places.
         out_of_reach(from, to) || (in_hole(from) && in_hole(to)) || blocked.tip_all_along(from, to, 0)
     };
-    if let Some([from, to]) = first_gap(surface, &|_| true, &stands, keep_going)? {
+    if let Some([from, to]) = first_gap(mesh, &|_| true, &stands, keep_going)? {
         return Err(BoundError::TipWall { from: [from.x, from.y], to: [to.x, to.y] });
     }
-    let starts: Vec<SurfacePlace> = claim.starts.iter().map(|(_, place)| *place).collect();
+    let starts: Vec<MeshPoint> = claim.starts.iter().map(|(_, place)| *place).collect();
     let tips: Vec<Point> = claim.goals.iter().map(|q| arm.tip(q)).collect();
-    let reached = surface.reached_from(starts.iter().map(|start| start.cell));
-    let goals = places_of(surface, &reached, &tips);
-    match taut_path(surface, &starts, &goals, Measure::Euclidean, &tips, keep_going) {
+    let reached = mesh.reached_from(starts.iter().map(|start| start.cell));
+    let goals = places_of(mesh, &reached, &tips);
+    match geodesic(mesh, &starts, &goals, Measure::Euclidean, &tips, keep_going) {
         Some(path) => {
             // Places are as near to the tips as rounding lets them be.
             let cost = path.cost * (1.0 - SUM_ROUNDING) - 2.0 * TIP_ROUNDING * size;

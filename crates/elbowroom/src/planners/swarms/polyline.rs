@@ -2,14 +2,14 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use super::choice::Choice;
+use super::endpoint_choice::EndpointChoice;
 use crate::arm::Configuration;
 use crate::path::straight_move_is_free;
 use crate::random::unit;
 use crate::scene::Scene;
 
 /// Start, the configurations in a particle's coordinates, and goal, as its last coordinate chooses them.
-pub(in crate::planners) fn places(coordinates: &[f64], choice: &Choice) -> Vec<Configuration> {
+pub(in crate::planners) fn places(coordinates: &[f64], choice: &EndpointChoice) -> Vec<Configuration> {
     let (chosen, inner) = coordinates.split_last().unwrap_or((&0.0, &[]));
     let [start, goal] = choice.pair(*chosen);
     let mut places = vec![start.clone()];
@@ -29,7 +29,7 @@ pub(in crate::planners) fn certified(
 /// Coordinates of `count` particles with `vias` configurations each, on the straight turns from starts to goals and, one
 /// after the other, ever farther from them.
 pub(in crate::planners) fn around_straight(
-    choice: &Choice,
+    choice: &EndpointChoice,
     vias: usize,
     count: usize,
     rng: &mut ChaCha8Rng,

@@ -211,11 +211,11 @@ impl Frame {
         // The tip's direction of the greatest of the two singular values.
         let along = Vector::polar(1.0, 0.5 * libm::atan2(2.0 * xy, xx - yy));
         let pulls: Vec<f64> = columns.iter().map(|column| column.dot(along)).collect();
-        let greatest = pulls.iter().map(|pull| pull * pull).sum::<f64>().sqrt();
+        let greatest = pulls.iter().map(|shortcut| shortcut * shortcut).sum::<f64>().sqrt();
         let [_, reach] = arm.reach();
         let soft = 2.0 * (error / reach).sqrt();
         let (stiff, narrow) = if greatest > 0.0 {
-            (pulls.iter().map(|pull| pull / greatest).collect(), (2.0 * error / greatest).min(soft))
+            (pulls.iter().map(|shortcut| shortcut / greatest).collect(), (2.0 * error / greatest).min(soft))
         } else {
             (vec![0.0; q.len()], soft)
         };

@@ -1,6 +1,6 @@
 //! A certified path made cheaper: straight turns in place of detours.
 
-use super::lead::Leader;
+use super::local_planner::LocalPlanner;
 use crate::arm::{Arm, Configuration, joint_distance};
 use crate::path::{JointPath, simplify};
 use crate::planning::{Exhausted, Objective, motion_limits};
@@ -15,11 +15,16 @@ const PATIENCE: usize = 60;
 /// What joint travel weighs where tip travel counts, as a share of the reach (m/rad): enough against needless self-motion.
 const JOINT_SHARE: f64 = 0.02;
 
-/// Places nearer to the path than this, in grid steps, do not count for its price in time.
+/// Places nearer to the path than this, in grid steps, do not count for its estimated time.
 const TOLERANCE: f64 = 0.1;
 
 /// What `path` promises to cost in terms of `objective`.
-pub(in crate::planners) fn price(arm: &Arm, objective: Objective, path: &JointPath, grid_step: f64) -> f64 {
+pub(in crate::planners) fn estimated_cost(
+    arm: &Arm,
+    objective: Objective,
+    path: &JointPath,
+    grid_step: f64,
+) -> f64 {
     match objective {
         Objective::Tip => path.tip_travel(arm),
         Objective::Joint => path.length(),
@@ -45,18 +50,18 @@ fn weight(arm: &Arm, objective: Objective, places: &[Configuration]) -> f64 {
 /// # Errors
 /// [`Exhausted::Failed`]
 pub(in crate::planners) fn shortened(
-    leader: &mut Leader<'_>,
+    local: &mut LocalPlanner<'_>,
     mut path: Vec<Configuration>,
     objective: Objective,
 ) -> Result<JointPath, Exhausted> {
-    let arm = leader.scene.arm();
+    let arm = local.scene.arm();
     let mut idle = 0;
     for _ in 0..TRIES {
         if path.len() < 2 || idle == PATIENCE {
             break;
         }
         idle += 1;
-        let (a, b) = (leader.unit(), leader.unit());
+        let (a, b) = (local.unit(), local.unit());
         let (first, last) = (place(&path, a.min(b)), place(&path, a.max(b)));
         if first.0 == last.0 {
             continue;
@@ -68,7 +73,7 @@ pub(in crate::planners) fn shortened(
         if weight(arm, objective, &ends) >= weight(arm, objective, &stretch) * (1.0 - 1e-6) {
             continue;
         }
-        match leader.joins(&first.1, &last.1) {
+        match local.connects(&first.1, &last.1) {
             Ok(true) => {
                 path.splice(first.0 + 1..=last.0, ends);
                 path.dedup();

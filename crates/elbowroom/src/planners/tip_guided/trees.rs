@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-use super::guide::Guide;
-use super::lead::Leader;
+use super::local_planner::LocalPlanner;
+use super::navigation::NavigationFunction;
 use crate::arm::{Arm, Configuration, lerp};
 use crate::geometry::Point;
 use crate::planning::{Endpoints, Exhausted};
@@ -31,7 +31,7 @@ const TURN: f64 = 0.25;
 const NEAR: f64 = 3.0;
 
 /// Rings of cells around one that could not be reached, which are made costlier with it.
-const RAISED: usize = 3;
+const PENALISED: usize = 3;
 
 /// What each try from a configuration costs it in the queue, in strides.
 const TRIED: f64 = 2.0;
@@ -54,7 +54,7 @@ struct Tree {
     by_cell: BTreeMap<usize, Vec<usize>>,
     queue: BinaryHeap<Reverse<(u64, usize)>>,
     /// To where the other tree began.
-    guide: Guide,
+    guide: NavigationFunction,
 }
 
 /// The search; the guides keep what they learn from one to the next.
@@ -62,7 +62,7 @@ pub(in crate::planners) struct Trees<'a> {
     ends: &'a Endpoints,
     /// Where the tip shall be at the goal and at the start, where that is all that is asked: what each tree grows towards.
     tips: [Option<Point>; 2],
-    guides: [Guide; 2],
+    guides: [NavigationFunction; 2],
 }
 
 impl<'a> Trees<'a> {
@@ -71,8 +71,8 @@ impl<'a> Trees<'a> {
     pub(in crate::planners) fn new(
         ends: &'a Endpoints,
         tips: [Option<Point>; 2],
-        to_goals: Guide,
-        to_starts: Guide,
+        to_goals: NavigationFunction,
+        to_starts: NavigationFunction,
     ) -> Self {
         Self { ends, tips, guides: [to_goals, to_starts] }
     }
@@ -81,7 +81,10 @@ impl<'a> Trees<'a> {
     ///
     /// # Errors
     /// [`Exhausted`]
-    pub(in crate::planners) fn path(&self, leader: &mut Leader<'_>) -> Result<Vec<Configuration>, Exhausted> {
+    pub(in crate::planners) fn path(
+        &self,
+        local: &mut LocalPlanner<'_>,
+    ) -> Result<Vec<Configuration>, Exhausted> {
         let [mut from_starts, mut from_goals] = [0, 1].map(|side| Tree {
             nodes: Vec::new(),
             by_cell: BTreeMap::new(),
@@ -89,10 +92,10 @@ impl<'a> Trees<'a> {
             guide: self.guides[side].clone(),
         });
         for q in &self.ends.starts {
-            from_starts.insert(leader, q.clone(), None)?;
+            from_starts.insert(local, q.clone(), None)?;
         }
         for q in &self.ends.goals {
-            from_goals.insert(leader, q.clone(), None)?;
+            from_goals.insert(local, q.clone(), None)?;
         }
         for turn in 0.. {
             let forward = turn % 2 == 0;
@@ -102,10 +105,10 @@ impl<'a> Trees<'a> {
                 (&mut from_goals, &mut from_starts)
             };
             let explores = (turn / 2) % EXPLORE_EVERY == EXPLORE_EVERY - 1;
-            let new = if explores { growing.explore(leader)? } else { growing.follow(leader)? };
+            let new = if explores { growing.explore(local)? } else { growing.follow(local)? };
             let Some(new) = new else { continue };
             if let Some(tip) = self.tips[usize::from(!forward)]
-                && let Some(last) = growing.end_at(leader, new, tip)?
+                && let Some(last) = growing.end_at(local, new, tip)?
             {
                 let mut path = growing.trace(last);
                 if !forward {
@@ -113,7 +116,7 @@ impl<'a> Trees<'a> {
                 }
                 return Ok(path);
             }
-            if let Some(met) = other.connect(leader, &growing.nodes[new].q)? {
+            if let Some(met) = other.connect(local, &growing.nodes[new].q)? {
                 let (a, b) =
                     if forward { ((growing, new), (other, met)) } else { ((other, met), (growing, new)) };
                 return Ok(joined(a.0.trace(a.1), b.0.trace(b.1)));
@@ -138,12 +141,12 @@ fn joined(mut to_meeting: Vec<Configuration>, mut from_goal: Vec<Configuration>)
 impl Tree {
     fn insert(
         &mut self,
-        leader: &mut Leader<'_>,
+        local: &mut LocalPlanner<'_>,
         q: Configuration,
         parent: Option<usize>,
     ) -> Result<Option<usize>, Exhausted> {
-        let Some(cell) = self.guide.cell(leader.tip(&q)) else { return Ok(None) };
-        let arm = leader.scene.arm();
+        let Some(cell) = self.guide.cell(local.tip(&q)) else { return Ok(None) };
+        let arm = local.scene.arm();
         let there = self.by_cell.entry(cell).or_default();
         if there.iter().any(|&other| arm.distance(&self.nodes[other].q, &q) < DIFFERENT) {
             return Ok(None);
@@ -151,37 +154,37 @@ impl Tree {
         let node = self.nodes.len();
         there.push(node);
         self.nodes.push(Node { q, parent, cell, tried: 0 });
-        self.push(leader, node)?;
+        self.push(local, node)?;
         Ok(Some(node))
     }
 
-    fn push(&mut self, leader: &mut Leader<'_>, node: usize) -> Result<(), Exhausted> {
+    fn push(&mut self, local: &mut LocalPlanner<'_>, node: usize) -> Result<(), Exhausted> {
         let Node { cell, tried, .. } = self.nodes[node];
-        self.guide.repair(cell, leader.budget.monitor)?;
-        let penalty = TRIED * STRIDE * leader.scene.arm().reach()[1] * tried as f64;
-        let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * leader.unit());
+        self.guide.repair(cell, local.budget.monitor)?;
+        let penalty = TRIED * STRIDE * local.scene.arm().reach()[1] * tried as f64;
+        let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * local.unit());
         // Never negative, so that its bits sort as it does.
         self.queue.push(Reverse((key.to_bits(), node)));
         Ok(())
     }
 
     /// Leads the most promising configuration along the guide; the guide is repaired where that fails.
-    fn follow(&mut self, leader: &mut Leader<'_>) -> Result<Option<usize>, Exhausted> {
-        let Some(Reverse((_, node))) = self.queue.pop() else { return self.explore(leader) };
+    fn follow(&mut self, local: &mut LocalPlanner<'_>) -> Result<Option<usize>, Exhausted> {
+        let Some(Reverse((_, node))) = self.queue.pop() else { return self.explore(local) };
         let (from, cell, tried) = {
             let node = &mut self.nodes[node];
             node.tried += 1;
             (node.q.clone(), node.cell, node.tried)
         };
-        self.guide.repair(cell, leader.budget.monitor)?;
-        let reach = leader.scene.arm().reach()[1];
-        let mut steps = ((STRIDE * reach / leader.scene.grid().step()).round() as usize).clamp(1, 64);
+        self.guide.repair(cell, local.budget.monitor)?;
+        let reach = local.scene.arm().reach()[1];
+        let mut steps = ((STRIDE * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
         // After the first try, from elsewhere on the self-motion.
-        let near = if tried == 1 { from.clone() } else { leader.shaken(&from, SHAKE) };
+        let near = if tried == 1 { from.clone() } else { local.shaken(&from, SHAKE) };
         let mut found = None;
         loop {
             let tip = self.guide.point(self.guide.ahead(cell, steps));
-            found = found.or(leader.by_least_squares(&from, &near, tip)?);
+            found = found.or(local.by_least_squares(&from, &near, tip)?);
             if found.is_some() || steps == 1 {
                 break;
             }
@@ -190,35 +193,35 @@ impl Tree {
         if found.is_none() {
             let target = self.guide.ahead(cell, 2);
             let tip = self.guide.point(target);
-            found = leader.by_swarm(&from, &near, tip, RADIUS, SWARM)?;
+            found = local.by_swarm(&from, &near, tip, RADIUS, SWARM)?;
             if found.is_none() {
-                self.guide.raise(target, RAISED);
+                self.guide.penalise(target, PENALISED);
             }
         }
-        self.push(leader, node)?;
+        self.push(local, node)?;
         match found {
-            Some(q) => self.insert(leader, q, Some(node)),
+            Some(q) => self.insert(local, q, Some(node)),
             None => Ok(None),
         }
     }
 
     /// Moves some configuration without the guide: the arm by itself with the tip where it is, or towards anywhere.
-    fn explore(&mut self, leader: &mut Leader<'_>) -> Result<Option<usize>, Exhausted> {
-        if leader.unit() < 0.5 {
-            let node = leader.below(self.nodes.len());
+    fn explore(&mut self, local: &mut LocalPlanner<'_>) -> Result<Option<usize>, Exhausted> {
+        if local.unit() < 0.5 {
+            let node = local.below(self.nodes.len());
             let from = self.nodes[node].q.clone();
-            let (near, tip) = (leader.shaken(&from, SHAKE), leader.tip(&from));
-            return match leader.by_least_squares(&from, &near, tip)? {
-                Some(q) => self.insert(leader, q, Some(node)),
+            let (near, tip) = (local.shaken(&from, SHAKE), local.tip(&from));
+            return match local.by_least_squares(&from, &near, tip)? {
+                Some(q) => self.insert(local, q, Some(node)),
                 None => Ok(None),
             };
         }
-        let middle = vec![0.0; leader.scene.arm().links()];
-        let anywhere = leader.shaken(&middle, std::f64::consts::PI);
-        let Some((node, target)) = self.nearest(leader.scene.arm(), &anywhere) else { return Ok(None) };
+        let middle = vec![0.0; local.scene.arm().links()];
+        let anywhere = local.shaken(&middle, std::f64::consts::PI);
+        let Some((node, target)) = self.nearest(local.scene.arm(), &anywhere) else { return Ok(None) };
         let to = step(&self.nodes[node].q, &target);
         let from = self.nodes[node].q.clone();
-        if leader.joins(&from, &to)? { self.insert(leader, to, Some(node)) } else { Ok(None) }
+        if local.connects(&from, &to)? { self.insert(local, to, Some(node)) } else { Ok(None) }
     }
 
     /// The configuration nearest to `q`, and `q` counted on by whole turns to where it is nearest to that.
@@ -231,22 +234,22 @@ impl Tree {
     }
 
     /// Goes from the nearest configuration towards `q`, step by step; the one that is `q`, if it gets there.
-    fn connect(&mut self, leader: &mut Leader<'_>, q: &[f64]) -> Result<Option<usize>, Exhausted> {
-        let Some((mut node, target)) = self.nearest(leader.scene.arm(), q) else { return Ok(None) };
+    fn connect(&mut self, local: &mut LocalPlanner<'_>, q: &[f64]) -> Result<Option<usize>, Exhausted> {
+        let Some((mut node, target)) = self.nearest(local.scene.arm(), q) else { return Ok(None) };
         loop {
             let from = self.nodes[node].q.clone();
             let to = step(&from, &target);
-            if !leader.joins(&from, &to)? {
+            if !local.connects(&from, &to)? {
                 return Ok(None);
             }
             let is_there = to == target;
             if is_there {
                 // Whether or not its like is known: the trees meet here.
-                let Some(cell) = self.guide.cell(leader.tip(&to)) else { return Ok(None) };
+                let Some(cell) = self.guide.cell(local.tip(&to)) else { return Ok(None) };
                 self.nodes.push(Node { q: to, parent: Some(node), cell, tried: 0 });
                 return Ok(Some(self.nodes.len() - 1));
             }
-            let Some(next) = self.insert(leader, to, Some(node))? else { return Ok(None) };
+            let Some(next) = self.insert(local, to, Some(node))? else { return Ok(None) };
             node = next;
         }
     }
@@ -254,16 +257,16 @@ impl Tree {
     /// The end of the path with the tip at `tip`, if that is near `node` and can be reached from it.
     fn end_at(
         &mut self,
-        leader: &mut Leader<'_>,
+        local: &mut LocalPlanner<'_>,
         node: usize,
         tip: Point,
     ) -> Result<Option<usize>, Exhausted> {
         let (from, cell) = (self.nodes[node].q.clone(), self.nodes[node].cell);
-        let far = leader.tip(&from).distance(tip) > NEAR * STRIDE * leader.scene.arm().reach()[1];
+        let far = local.tip(&from).distance(tip) > NEAR * STRIDE * local.scene.arm().reach()[1];
         if far {
             return Ok(None);
         }
-        let Some(q) = leader.by_least_squares(&from, &from, tip)? else { return Ok(None) };
+        let Some(q) = local.by_least_squares(&from, &from, tip)? else { return Ok(None) };
         self.nodes.push(Node { q, parent: Some(node), cell, tried: 0 });
         Ok(Some(self.nodes.len() - 1))
     }

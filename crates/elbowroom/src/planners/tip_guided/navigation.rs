@@ -7,22 +7,19 @@ use crate::geometry::{Point, Segment};
 use crate::grid::Grid;
 use crate::planning::{Monitor, PlanError};
 use crate::scene::Scene;
-use crate::search::{Dstar, Graph, Progress, Until};
-
-/// Expansions of D* between two looks at the monitor: a few milliseconds.
-const EXPANSIONS_PER_LOOK: usize = 1_000;
+use crate::search::{Dstar, Graph, Until};
 
 /// Cells between two looks at the monitor while the map is made.
 const CELLS_PER_LOOK: usize = 4_096;
 
 /// Within how many half widths of an obstacle, and no less than grid steps, a cell is the costlier the nearer it lies.
-const SHY: f64 = 3.0;
+const NEAR: f64 = 3.0;
 
 /// How often as much a cell costs right at an obstacle.
-const SHYNESS: f64 = 3.0;
+const NEAR_COST: f64 = 3.0;
 
 /// How often as much a cell costs each time the arm could not pass it.
-const RAISE: f64 = 4.0;
+const PENALTY: f64 = 4.0;
 
 /// Beyond this a cell is not made costlier.
 const COSTLIEST: f64 = 1e4;
@@ -53,12 +50,12 @@ impl Graph for TipCells {
 
 /// D* over the tip's workspace.
 #[derive(Debug, Clone)]
-pub(in crate::planners) struct Guide {
+pub(in crate::planners) struct NavigationFunction {
     cells: TipCells,
     field: Dstar,
 }
 
-impl Guide {
+impl NavigationFunction {
     /// The way to any of `goals`, tips all.
     ///
     /// # Errors
@@ -118,12 +115,10 @@ impl Guide {
         cell: usize,
         monitor: &dyn Monitor,
     ) -> Result<(), PlanError> {
-        while self.field.expand(&self.cells, Until::Settled(cell), EXPANSIONS_PER_LOOK) == Progress::Paused {
-            if !monitor.keep_going() {
-                return Err(PlanError::Stopped);
-            }
+        match self.field.settle(&self.cells, Until::Settled(cell), &|| monitor.keep_going()) {
+            true => Ok(()),
+            false => Err(PlanError::Stopped),
         }
-        Ok(())
     }
 
     /// What the way from `cell` costs (m, more where it is narrow or was found to be hard).
@@ -143,22 +138,22 @@ impl Guide {
     }
 
     /// Makes `cell` and so many rings around it costlier: the arm could not pass. D* is repaired when next asked.
-    pub(in crate::planners) fn raise(&mut self, cell: usize, rings: usize) {
+    pub(in crate::planners) fn penalise(&mut self, cell: usize, rings: usize) {
         let grid = self.cells.grid;
         let (column, row) = grid.column_row(cell);
         let columns = column.saturating_sub(rings)..=(column + rings).min(grid.columns() - 1);
-        let mut raised = Vec::new();
+        let mut penalised = Vec::new();
         for column in columns {
             for row in row.saturating_sub(rings)..=(row + rings).min(grid.rows() - 1) {
                 let at = grid.cell(column, row);
                 let weight = &mut self.cells.weight[at];
                 if *weight < COSTLIEST {
-                    *weight *= RAISE;
-                    raised.push(at);
+                    *weight *= PENALTY;
+                    penalised.push(at);
                 }
             }
         }
-        self.field.changed(&self.cells, raised);
+        self.field.changed(&self.cells, penalised);
     }
 }
 
@@ -166,7 +161,7 @@ impl Guide {
 fn weights(scene: &Scene, monitor: &dyn Monitor) -> Result<Vec<f64>, PlanError> {
     let [nearest, farthest] = reach(scene.arm());
     let width = scene.arm().half_width();
-    let shy = SHY * width.max(scene.grid().step());
+    let near = NEAR * width.max(scene.grid().step());
     let mut weights = Vec::with_capacity(scene.grid().len());
     for cell in 0..scene.grid().len() {
         if cell % CELLS_PER_LOOK == 0 && !monitor.keep_going() {
@@ -184,7 +179,7 @@ fn weights(scene: &Scene, monitor: &dyn Monitor) -> Result<Vec<f64>, PlanError> 
         weights.push(if clearance <= 0.0 {
             f64::INFINITY
         } else {
-            1.0 + (SHYNESS - 1.0) * (1.0 - clearance / shy).max(0.0)
+            1.0 + (NEAR_COST - 1.0) * (1.0 - clearance / near).max(0.0)
         });
     }
     Ok(weights)

@@ -1,22 +1,22 @@
 use std::cell::RefCell;
 
-use super::nearest::{Nearest, Obstacles};
+use super::clearance_cache::{CachedClearance, Obstacles};
 use crate::arm::{JointLimits, Posture, TwoLink};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::scene::TwoLinkScene;
 
-/// Rounding in the count of turns: a range of exactly one turn has one sheet, not two.
+/// Rounding in the count of turns: a range of exactly one turn has one branch, not two.
 const TURN_ROUNDING: f64 = 1e-9;
 
 /// Most that a joint turns in one step (rad): at half a turn rounding would say which way round.
 const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
 
-/// The free configurations over the grid, laid out in sheets, one per posture, and more where a joint with stops can
+/// The free configurations over the grid, laid out by solution branch, one per posture, and more where a joint with stops can
 /// turn more than once round. What is asked of a node is worked out once and kept; a node never asked for costs
 /// four bytes.
-pub(crate) struct Sheets<'a> {
+pub(crate) struct BranchGrid<'a> {
     scene: TwoLinkScene<'a>,
     space: &'a FreeSpace,
     /// How near to the edge of the reach is near (m).
@@ -26,22 +26,22 @@ pub(crate) struct Sheets<'a> {
     /// From a cell that is not at the grid's edge to its neighbours.
     steps_around: Option<[isize; 8]>,
     pub(super) obstacles: Obstacles<'a>,
-    kept: Kept,
+    cache: NodeCache,
 }
 
 /// What was found out about nodes; it may outlive the graph where obstacles move.
 #[derive(Default)]
-pub(crate) struct Kept {
+pub(crate) struct NodeCache {
     /// Where in `records` each node's is, plus 1; 0 for a node never asked for.
     places: RefCell<Vec<u32>>,
-    records: RefCell<Vec<Record>>,
+    records: RefCell<Vec<CachedNode>>,
 }
 
 /// What is known of a free node; small, for a fine grid has millions of them.
 #[derive(Clone, Copy)]
-pub(crate) struct Record {
+pub(crate) struct CachedNode {
     pub(crate) q: [f64; 2],
-    pub(super) nearest: Nearest,
+    pub(super) nearest: CachedClearance,
     /// Whether the tip is near full stretch or fold.
     pub(crate) is_near_edge: bool,
     /// Whether obstacles moved near by: all but `q` has to be worked out again, if the node is free at all.
@@ -56,12 +56,12 @@ pub(crate) struct Record {
 pub(crate) struct Edge(u32);
 
 impl Edge {
-    /// To the neighbour in `direction` on the same sheet.
+    /// To the neighbour in `direction` on the same branch.
     pub(crate) fn along(direction: usize) -> Self {
         Self(direction as u32)
     }
 
-    /// To the other sheet, where there are two: over the neighbour in `direction`, or over the same cell.
+    /// To the other branch, where there are two: over the neighbour in `direction`, or over the same cell.
     pub(crate) fn across(direction: Option<usize>) -> Self {
         Self(direction.map_or(16, |direction| 8 + direction as u32))
     }
@@ -72,7 +72,7 @@ impl Edge {
     }
 }
 
-impl Record {
+impl CachedNode {
     /// Whether `edge` is certified; `None` if nobody looked yet.
     pub(crate) fn is_certified(&self, edge: Edge) -> Option<bool> {
         (self.known >> edge.0 & 1 == 1).then_some(self.certified >> edge.0 & 1 == 1)
@@ -88,10 +88,15 @@ impl Record {
     }
 }
 
-impl<'a> Sheets<'a> {
-    /// The sheets over the map of `scene`, with what is known of them already: of the same arm and grid, and told by
+impl<'a> BranchGrid<'a> {
+    /// The branches over the map of `scene`, with what is known of them already: of the same arm and grid, and told by
     /// [`forget`](Self::forget) where obstacles moved.
-    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, edge_band: f64, kept: Kept) -> Self {
+    pub(crate) fn new(
+        scene: TwoLinkScene<'a>,
+        space: &'a FreeSpace,
+        edge_band: f64,
+        cache: NodeCache,
+    ) -> Self {
         let per_posture: usize = scene.arm().joints().iter().map(|joint| turns(&joint.limits)).product();
         let cells = scene.grid().len();
         Self {
@@ -102,41 +107,41 @@ impl<'a> Sheets<'a> {
             cells,
             steps_around: steps_around(scene.grid()),
             obstacles: Obstacles::of(scene),
-            kept: kept.of_len(2 * per_posture * cells),
+            cache: cache.of_len(2 * per_posture * cells),
         }
     }
 
     /// What is known by now.
-    pub(crate) fn into_kept(self) -> Kept {
-        self.kept
+    pub(crate) fn into_cache(self) -> NodeCache {
+        self.cache
     }
 
     /// Forgets what obstacles that moved near `node` may have changed.
     pub(crate) fn forget(&self, node: usize) {
-        let place = self.kept.places.borrow()[node] as usize;
+        let place = self.cache.places.borrow()[node] as usize;
         if let Some(place) = place.checked_sub(1) {
-            self.kept.records.borrow_mut()[place].forget();
+            self.cache.records.borrow_mut()[place].forget();
         }
     }
 
     /// [`forget`](Self::forget), for all nodes.
     pub(crate) fn forget_all(&self) {
-        self.kept.records.borrow_mut().iter_mut().for_each(Record::forget);
+        self.cache.records.borrow_mut().iter_mut().for_each(CachedNode::forget);
     }
 
-    /// How many nodes there are: every sheet has one over every cell, free or not.
+    /// How many nodes there are: every branch has one over every cell, free or not.
     pub(crate) fn len(&self) -> usize {
         2 * self.per_posture * self.cells
     }
 
-    /// Whether there is more than one sheet of a posture.
+    /// Whether there is more than one branch of a posture.
     pub(crate) fn several_per_posture(&self) -> bool {
         self.per_posture > 1
     }
 
-    /// The sheet that `node` lies on, and the cell under it.
-    pub(crate) fn sheet_and_cell(&self, node: usize) -> (usize, usize) {
-        // Mostly there are two sheets, and a division is slow.
+    /// The branch that `node` lies on, and the cell under it.
+    pub(crate) fn branch_and_cell(&self, node: usize) -> (usize, usize) {
+        // Mostly there are two branches, and a division is slow.
         if node < self.cells {
             (0, node)
         } else if node < 2 * self.cells {
@@ -146,14 +151,14 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// The nodes over `cell`, one per sheet.
+    /// The nodes over `cell`, one per branch.
     pub(crate) fn over(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
         (cell..self.len()).step_by(self.cells)
     }
 
-    /// Whether two nodes lie on one sheet.
-    pub(crate) fn same_sheet(&self, a: usize, b: usize) -> bool {
-        self.sheet_and_cell(a).0 == self.sheet_and_cell(b).0
+    /// Whether two nodes lie on one branch.
+    pub(crate) fn same_branch(&self, a: usize, b: usize) -> bool {
+        self.branch_and_cell(a).0 == self.branch_and_cell(b).0
     }
 
     /// Whether two nodes have one posture, whatever their turns.
@@ -185,25 +190,25 @@ impl<'a> Sheets<'a> {
 
     /// Keeps whether the edge from the record at `from` to the one at `to` is certified.
     pub(crate) fn keep_edge(&self, from: usize, edge: Edge, to: usize, certified: bool) {
-        let mut records = self.kept.records.borrow_mut();
+        let mut records = self.cache.records.borrow_mut();
         records[from].keep(edge, certified);
         records[to].keep(edge.reverse(), certified);
     }
 
     /// What is known of `node`, and where that is kept; `None` if the node is not free.
-    pub(crate) fn look(&self, node: usize) -> Option<(usize, Record)> {
-        let place = self.kept.places.borrow()[node] as usize;
+    pub(crate) fn look(&self, node: usize) -> Option<(usize, CachedNode)> {
+        let place = self.cache.places.borrow()[node] as usize;
         let Some(place) = place.checked_sub(1) else {
             if !self.is_free(node) {
                 return None;
             }
             let record = self.work_out(node, self.stand(node)?);
-            let mut records = self.kept.records.borrow_mut();
+            let mut records = self.cache.records.borrow_mut();
             records.push(record);
-            self.kept.places.borrow_mut()[node] = records.len() as u32;
+            self.cache.places.borrow_mut()[node] = records.len() as u32;
             return Some((records.len() - 1, record));
         };
-        let record = self.kept.records.borrow()[place];
+        let record = self.cache.records.borrow()[place];
         if !record.is_due {
             return Some((place, record));
         }
@@ -211,38 +216,38 @@ impl<'a> Sheets<'a> {
             return None;
         }
         let record = self.work_out(node, record.q);
-        self.kept.records.borrow_mut()[place] = record;
+        self.cache.records.borrow_mut()[place] = record;
         Some((place, record))
     }
 
     /// Whether the tip may stand under `node` in its posture.
     pub(crate) fn is_free(&self, node: usize) -> bool {
-        self.space.map(self.posture(node)).is_free(self.sheet_and_cell(node).1)
+        self.space.map(self.posture(node)).is_free(self.branch_and_cell(node).1)
     }
 
     /// Whether the tip is near full stretch or fold at `node`.
     pub(crate) fn is_near_edge(&self, node: usize) -> bool {
-        let tip = self.scene.grid().point(self.sheet_and_cell(node).1);
+        let tip = self.scene.grid().point(self.branch_and_cell(node).1);
         to_edge(self.scene.arm(), tip) <= self.edge_band
     }
 
     /// The configuration at `node`, whatever the obstacles, if the arm can stand there.
     pub(crate) fn stand(&self, node: usize) -> Option<[f64; 2]> {
-        let (sheet, cell) = self.sheet_and_cell(node);
+        let (branch, cell) = self.branch_and_cell(node);
         let q = self.scene.arm().inverse_unlimited(self.scene.grid().point(cell), self.posture(node)).ok()?;
         let [first, second] = self.scene.arm().joints().map(|joint| joint.limits);
         let mut turned = first.places(q[0]).flat_map(|q1| second.places(q[1]).map(move |q2| [q1, q2]));
-        turned.nth(sheet % self.per_posture)
+        turned.nth(branch % self.per_posture)
     }
 
-    fn work_out(&self, node: usize, q: [f64; 2]) -> Record {
+    fn work_out(&self, node: usize, q: [f64; 2]) -> CachedNode {
         let nearest = self.obstacles.nearest_to(&q);
         let is_near_edge = self.is_near_edge(node);
-        Record { q, nearest, is_near_edge, is_due: false, known: 0, certified: 0 }
+        CachedNode { q, nearest, is_near_edge, is_due: false, known: 0, certified: 0 }
     }
 }
 
-impl Kept {
+impl NodeCache {
     /// Of how many nodes something is known.
     pub(crate) fn count(&self) -> usize {
         self.records.borrow().len()
@@ -277,7 +282,7 @@ pub(crate) fn to_edge(arm: &TwoLink, tip: Point) -> f64 {
     (farthest - distance).min(distance - nearest).max(0.0)
 }
 
-/// How many sheets a joint needs for one direction of its link.
+/// How many branches a joint needs for one direction of its link.
 fn turns(limits: &JointLimits) -> usize {
     match *limits {
         JointLimits::Continuous => 1,

@@ -1,9 +1,9 @@
 //! Pulls a certified path taut: corners are left out and cut for as long as what remains is certified.
 
-use super::sheets::direct;
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::path::{JointPath, straight_move_keeps};
-use crate::planning::{joint_path, pairs};
+use crate::path::{joint_path, pairs};
+use crate::roadmap::direct;
 use crate::scene::TwoLinkScene;
 
 /// Rounds of leaving out and cutting; the gain falls by about half with each.
@@ -28,14 +28,14 @@ pub(crate) enum Plane {
 }
 
 /// What lines may be taken.
-pub(crate) struct Pull<'a> {
+pub(crate) struct Shortcut<'a> {
     pub(crate) scene: TwoLinkScene<'a>,
     pub(crate) plane: Plane,
     /// Clearance kept by what is new (m).
     pub(crate) margin: f64,
 }
 
-impl Pull<'_> {
+impl Shortcut<'_> {
     /// `path` pulled taut; every straight turn of the result is certified. `None` if `keep_going` said no.
     pub(crate) fn taut(&self, path: &JointPath, keep_going: &dyn Fn() -> bool) -> Option<JointPath> {
         let mut corners = self.galloped(&pairs(&path.0));

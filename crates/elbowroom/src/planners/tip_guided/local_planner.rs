@@ -3,10 +3,10 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-use super::super::contacts::Contacts;
 use super::inverse_swarm::{InverseSwarmSettings, Previous, inverse_by_swarm};
 use crate::arm::{Configuration, Posture, joint_distance};
 use crate::geometry::Point;
+use crate::path::Penetration;
 use crate::path::{JointPath, straight_move_is_free};
 use crate::planning::{Budget, Candidate, CertifiedPath, Exhausted, Found, Pick};
 use crate::random::{below, unit};
@@ -28,23 +28,23 @@ const SELF_STEP: f64 = 0.15;
 const SELF_STEPS: usize = 200;
 
 /// Leads an arm, and keeps account.
-pub(in crate::planners) struct Leader<'a> {
+pub(in crate::planners) struct LocalPlanner<'a> {
     pub(in crate::planners) scene: &'a Scene,
     pub(in crate::planners) budget: Budget<'a>,
-    contacts: Contacts<'a>,
+    contacts: Penetration<'a>,
     rng: ChaCha8Rng,
     /// The posture of an arm of two links that must not change.
     pub(in crate::planners) kept: Option<Posture>,
 }
 
-impl<'a> Leader<'a> {
+impl<'a> LocalPlanner<'a> {
     pub(in crate::planners) fn new(scene: &'a Scene, budget: Budget<'a>, seed: u64) -> Self {
         let [_, reach] = scene.arm().reach();
-        let contacts = Contacts::new(scene, MARGIN * reach);
+        let contacts = Penetration::new(scene, MARGIN * reach);
         Self { scene, budget, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
     }
 
-    /// The cheapest of `paths`, each with its price, `most` of them: the first that is accepted will do.
+    /// The cheapest of `paths`, each with its estimated cost, `most` of them: the first that is accepted will do.
     pub(in crate::planners) fn found(self, mut paths: Vec<(f64, JointPath)>, most: usize) -> Found {
         paths.sort_by(|a, b| a.0.total_cmp(&b.0));
         let chosen_from = paths.len();
@@ -59,7 +59,7 @@ impl<'a> Leader<'a> {
     }
 
     /// Whether the straight turn is certified, between the stops, and keeps the posture that has to be kept.
-    pub(in crate::planners) fn joins(&mut self, from: &[f64], to: &[f64]) -> Result<bool, Exhausted> {
+    pub(in crate::planners) fn connects(&mut self, from: &[f64], to: &[f64]) -> Result<bool, Exhausted> {
         self.budget.spend(1)?;
         let keeps = self.kept.is_none_or(|kept| Posture::at(to).is_none_or(|posture| posture == kept))
             && (self.kept.is_none() || (to[1] - from[1]).abs() < std::f64::consts::PI);
@@ -76,7 +76,7 @@ impl<'a> Leader<'a> {
     ) -> Result<Option<Configuration>, Exhausted> {
         self.budget.spend(1)?;
         match self.scene.arm().inverse_near(tip, near) {
-            Some(q) if self.joins(from, &q)? => Ok(Some(q)),
+            Some(q) if self.connects(from, &q)? => Ok(Some(q)),
             _ => Ok(None),
         }
     }
@@ -124,12 +124,12 @@ impl<'a> Leader<'a> {
     }
 
     /// Certified turns from `from`, left out, to `to`: straight, or else with the tip on its straight way between both.
-    pub(in crate::planners) fn chain(
+    pub(in crate::planners) fn connect_by_steps(
         &mut self,
         from: &[f64],
         to: &[f64],
     ) -> Result<Option<Vec<Configuration>>, Exhausted> {
-        if self.joins(from, to)? {
+        if self.connects(from, to)? {
             return Ok(Some(vec![to.into()]));
         }
         let (start, end) = (self.tip(from), self.tip(to));
@@ -138,7 +138,7 @@ impl<'a> Leader<'a> {
         for _ in 0..SELF_STEPS {
             let widest = at.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
             if widest <= SELF_STEP {
-                if self.joins(&at, to)? {
+                if self.connects(&at, to)? {
                     places.push(to.into());
                     return Ok(Some(places));
                 }

@@ -1,15 +1,15 @@
-use super::sheets::{Edge, Kept, Record, Sheets, direct, to_edge};
+use super::branch_grid::{BranchGrid, CachedNode, Edge, NodeCache, direct, to_edge};
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
+use crate::path::joint_path;
 use crate::path::{JointPath, motion_bounds_of_two, straight_move_clears, straight_move_is_free};
-use crate::planning::joint_path;
 use crate::scene::TwoLinkScene;
 use crate::search::Graph;
 
 /// How near to full stretch or fold a posture may be changed, in grid steps of tip travel: wide enough
 /// that every direction has a grid point there.
-pub(super) const FLIP_BAND: f64 = 2.0;
+pub(super) const SINGULAR_BAND: f64 = 2.0;
 
 /// Least cost of an edge, in grid steps: the search needs costs that do not vanish in a sum.
 pub(super) const LEAST_COST: f64 = 1e-9;
@@ -24,13 +24,13 @@ const MOST_HALVINGS: u32 = 3;
 /// Where the arm can be, and from where it can turn straight to where: nodes are free configurations over
 /// grid points, in both postures, and the exact start and goal configurations; edges are certified sweeps.
 ///
-/// Along a sheet a node has its eight neighbours. Near full stretch and fold it also has those of the other
-/// sheets: the straight turn passes through the line of links there, which is where a posture can change.
+/// Along a branch a node has its eight neighbours. Near full stretch and fold it also has those of the other
+/// branches: the straight turn passes through the line of links there, which is where a posture can change.
 /// Edges are certified when first asked for, and the answer is kept.
 pub(crate) struct PostureGraph<'a> {
     pub(super) scene: TwoLinkScene<'a>,
-    pub(super) sheets: Sheets<'a>,
-    pub(super) may_flip: bool,
+    pub(super) branches: BranchGrid<'a>,
+    pub(super) may_change_posture: bool,
     places: Vec<PlaceNode>,
 }
 
@@ -42,15 +42,20 @@ struct PlaceNode {
 }
 
 impl<'a> PostureGraph<'a> {
-    /// The graph over the map of `scene`; the posture never changes unless `may_flip`.
-    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_flip: bool) -> Self {
-        Self::with(scene, space, may_flip, Kept::default())
+    /// The graph over the map of `scene`; the posture never changes unless `may_change_posture`.
+    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_change_posture: bool) -> Self {
+        Self::with(scene, space, may_change_posture, NodeCache::default())
     }
 
     /// [`new`](Self::new), with what is known already.
-    pub(super) fn with(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_flip: bool, kept: Kept) -> Self {
-        let sheets = Sheets::new(scene, space, FLIP_BAND * scene.grid().step(), kept);
-        Self { scene, sheets, may_flip, places: Vec::new() }
+    pub(super) fn with(
+        scene: TwoLinkScene<'a>,
+        space: &'a FreeSpace,
+        may_change_posture: bool,
+        cache: NodeCache,
+    ) -> Self {
+        let branches = BranchGrid::new(scene, space, SINGULAR_BAND * scene.grid().step(), cache);
+        Self { scene, branches, may_change_posture, places: Vec::new() }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
@@ -60,8 +65,8 @@ impl<'a> PostureGraph<'a> {
         let tip = self.scene.arm().tip(&q);
         let mut joined = Vec::new();
         for cell in self.scene.grid().corners(tip) {
-            for other in self.sheets.over(cell) {
-                if let Some(to) = self.sheets.configuration(other)
+            for other in self.branches.over(cell) {
+                if let Some(to) = self.branches.configuration(other)
                     && self.is_certified(&q, &to)
                 {
                     joined.push((other, self.cost(tip, self.scene.grid().point(cell), &q, &to)));
@@ -69,7 +74,7 @@ impl<'a> PostureGraph<'a> {
             }
         }
         let reach = 2.0 * self.scene.grid().step();
-        let cells = self.sheets.len();
+        let cells = self.branches.len();
         for i in 0..self.places.len() {
             let place = &self.places[i];
             if place.tip.distance(tip) <= reach && self.is_certified(&place.q, &q) {
@@ -84,16 +89,16 @@ impl<'a> PostureGraph<'a> {
 
     /// The configuration at `node`, which must be free.
     pub(crate) fn configuration(&self, node: usize) -> Option<[f64; 2]> {
-        match node.checked_sub(self.sheets.len()) {
-            None => self.sheets.configuration(node),
+        match node.checked_sub(self.branches.len()) {
+            None => self.branches.configuration(node),
             Some(i) => Some(self.places[i].q),
         }
     }
 
     /// Where the tip is at `node`.
     pub(crate) fn tip(&self, node: usize) -> Point {
-        match node.checked_sub(self.sheets.len()) {
-            None => self.scene.grid().point(self.sheets.sheet_and_cell(node).1),
+        match node.checked_sub(self.branches.len()) {
+            None => self.scene.grid().point(self.branches.branch_and_cell(node).1),
             Some(i) => self.places[i].tip,
         }
     }
@@ -135,7 +140,7 @@ impl<'a> PostureGraph<'a> {
     /// Whether the posture is kept, or may be changed.
     fn may_turn(&self, from: &[f64; 2], to: &[f64; 2]) -> bool {
         let changes = matches!((Posture::of(from), Posture::of(to)), (Some(a), Some(b)) if a != b);
-        self.may_flip || !changes
+        self.may_change_posture || !changes
     }
 
     /// Whether the arm can turn from `from` to `to`: straight or, where that would swing wide, by way of
@@ -193,28 +198,28 @@ impl<'a> PostureGraph<'a> {
         travel.max(LEAST_COST * self.scene.grid().step())
     }
 
-    /// Whether the edge from `node`, kept at `place`, to its neighbour `other` on the sheet is certified.
-    pub(super) fn sheet_edge(
+    /// Whether the edge from `node`, kept at `place`, to its neighbour `other` on the branch is certified.
+    pub(super) fn branch_edge(
         &self,
         node: usize,
-        (place, from): (usize, &Record),
+        (place, from): (usize, &CachedNode),
         other: usize,
         direction: usize,
     ) -> bool {
         let edge = Edge::along(direction);
         from.is_certified(edge).unwrap_or_else(|| {
-            let Some((there, to)) = self.sheets.look(other) else { return false };
+            let Some((there, to)) = self.branches.look(other) else { return false };
             // One order for both ways, so that rounding cannot make it matter who asks first.
             let (a, b) = if node < other { (from, &to) } else { (&to, from) };
             let certified = self.is_edge(a, b);
-            self.sheets.keep_edge(place, edge, there, certified);
+            self.branches.keep_edge(place, edge, there, certified);
             certified
         })
     }
 
     /// Whether the arm can turn between two nodes: what [`is_certified`](Self::is_certified) says, with what is known of
     /// the clearances at both ends.
-    fn is_edge(&self, from: &Record, to: &Record) -> bool {
+    fn is_edge(&self, from: &CachedNode, to: &CachedNode) -> bool {
         let arm = self.scene.arm();
         let Some(end) = direct(arm, &from.q, &to.q) else { return false };
         let bounds = motion_bounds_of_two(arm.lengths(), &from.q, &end);
@@ -232,47 +237,47 @@ impl<'a> PostureGraph<'a> {
             || self.connect_bent(&from.q, &end, MOST_HALVINGS, &mut Vec::new())
     }
 
-    /// Edges from `node` to other sheets, over its own cell or the neighbour in `direction`.
+    /// Edges from `node` to other branches, over its own cell or the neighbour in `direction`.
     fn visit_across(
         &self,
         node: usize,
-        from: (usize, &Record),
+        from: (usize, &CachedNode),
         (cell, direction): (usize, Option<usize>),
         visit: &mut impl FnMut(usize, f64),
     ) {
-        for other in self.sheets.over(cell) {
+        for other in self.branches.over(cell) {
             if let Some(cost) = self.across(node, from, other, direction) {
                 visit(other, cost);
             }
         }
     }
 
-    /// The cost of the edge from `node` to `other` on another sheet, if there is one and it is certified: to another turn
+    /// The cost of the edge from `node` to `other` on another branch, if there is one and it is certified: to another turn
     /// of the same posture anywhere, to the other posture near full stretch and fold.
     pub(super) fn across(
         &self,
         node: usize,
-        (place, from): (usize, &Record),
+        (place, from): (usize, &CachedNode),
         other: usize,
         direction: Option<usize>,
     ) -> Option<f64> {
-        if self.sheets.same_sheet(node, other) {
+        if self.branches.same_branch(node, other) {
             return None;
         }
-        let (there, to) = self.sheets.look(other)?;
-        let may_flip = self.may_flip_at(from) && self.may_flip_at(&to);
-        if !(may_flip || self.sheets.same_posture(node, other)) {
+        let (there, to) = self.branches.look(other)?;
+        let may_change_posture = self.may_change_posture_at(from) && self.may_change_posture_at(&to);
+        if !(may_change_posture || self.branches.same_posture(node, other)) {
             return None;
         }
         let (a, b) = if node < other { (from, &to) } else { (&to, from) };
         let look = || self.is_edge(a, b);
-        let certified = if self.sheets.several_per_posture() {
+        let certified = if self.branches.several_per_posture() {
             look()
         } else {
             let edge = Edge::across(direction);
             from.is_certified(edge).unwrap_or_else(|| {
                 let certified = look();
-                self.sheets.keep_edge(place, edge, there, certified);
+                self.branches.keep_edge(place, edge, there, certified);
                 certified
             })
         };
@@ -280,33 +285,33 @@ impl<'a> PostureGraph<'a> {
     }
 
     /// Whether the posture may be changed at a node.
-    pub(super) fn may_flip_at(&self, record: &Record) -> bool {
-        self.may_flip && record.is_near_edge
+    pub(super) fn may_change_posture_at(&self, record: &CachedNode) -> bool {
+        self.may_change_posture && record.is_near_edge
     }
 }
 
 impl Graph for PostureGraph<'_> {
     fn len(&self) -> usize {
-        self.sheets.len() + self.places.len()
+        self.branches.len() + self.places.len()
     }
 
     fn neighbours(&self, node: usize, mut visit: impl FnMut(usize, f64)) {
-        if let Some(i) = node.checked_sub(self.sheets.len()) {
+        if let Some(i) = node.checked_sub(self.branches.len()) {
             self.places[i].joined.iter().for_each(|&(other, cost)| visit(other, cost));
             return;
         }
-        let Some((place, from)) = self.sheets.look(node) else { return };
-        let (_, cell) = self.sheets.sheet_and_cell(node);
-        let sheet = node - cell;
+        let Some((place, from)) = self.branches.look(node) else { return };
+        let (_, cell) = self.branches.branch_and_cell(node);
+        let branch = node - cell;
         // Both ends of a flip have to be near the edge of the reach.
-        let crosses = self.sheets.several_per_posture() || self.may_flip_at(&from);
+        let crosses = self.branches.several_per_posture() || self.may_change_posture_at(&from);
         if crosses {
             self.visit_across(node, (place, &from), (cell, None), &mut visit);
         }
-        for (direction, neighbour) in self.sheets.around(cell).into_iter().enumerate() {
+        for (direction, neighbour) in self.branches.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
-            if self.sheet_edge(node, (place, &from), sheet + neighbour, direction) {
-                visit(sheet + neighbour, self.scene.grid().neighbour_distance(direction));
+            if self.branch_edge(node, (place, &from), branch + neighbour, direction) {
+                visit(branch + neighbour, self.scene.grid().neighbour_distance(direction));
             }
             if crosses {
                 self.visit_across(node, (place, &from), (neighbour, Some(direction)), &mut visit);
@@ -315,7 +320,7 @@ impl Graph for PostureGraph<'_> {
         for (i, place) in self.places.iter().enumerate() {
             for &(other, cost) in &place.joined {
                 if other == node {
-                    visit(self.sheets.len() + i, cost);
+                    visit(self.branches.len() + i, cost);
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! How long a polyline of configurations is, and how far from free.
 
-use super::super::contacts::Contacts;
 use crate::arm::{Configuration, joint_distance, lerp};
+use crate::path::Penetration;
 use crate::planning::{Objective, motion_limits};
 use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
@@ -15,21 +15,21 @@ const MOST_LOOKS: usize = 64;
 const KEPT: f64 = 2e-3;
 
 /// The measure of candidates. It orders them; what is handed out is certified.
-pub(in crate::planners) struct Track<'a> {
+pub(in crate::planners) struct PathObjective<'a> {
     pub(in crate::planners) scene: &'a Scene,
     objective: Objective,
     limits: Vec<SpeedLimits>,
     look_every: f64,
-    contacts: Contacts<'a>,
+    contacts: Penetration<'a>,
     /// Whether the second of two joints must not change its sign.
     keeps_posture: bool,
 }
 
-impl<'a> Track<'a> {
+impl<'a> PathObjective<'a> {
     pub(in crate::planners) fn new(scene: &'a Scene, objective: Objective, keeps_posture: bool) -> Self {
         let (limits, _) = motion_limits(scene.arm());
         let [_, reach] = scene.arm().reach();
-        let contacts = Contacts::new(scene, KEPT * reach);
+        let contacts = Penetration::new(scene, KEPT * reach);
         Self { scene, objective, limits, look_every: LOOK_EVERY * reach, contacts, keeps_posture }
     }
 
@@ -61,7 +61,7 @@ impl<'a> Track<'a> {
 
     /// Looks at configurations on a way from `start`, whose posture is the one to be kept.
     pub(in crate::planners) fn watch<'t>(&'t self, start: &'t [f64]) -> Watch<'t> {
-        Watch { track: self, start, gap: 0.0 }
+        Watch { path_objective: self, start, gap: 0.0 }
     }
 
     fn turn(&self, from: &[f64], to: &[f64], watch: &mut Watch<'_>) -> f64 {
@@ -133,7 +133,7 @@ impl<'a> Track<'a> {
 
 /// Looks at one configuration after the other, and not at those that are too near to the last to be in contact.
 pub(in crate::planners) struct Watch<'t> {
-    track: &'t Track<'t>,
+    path_objective: &'t PathObjective<'t>,
     start: &'t [f64],
     /// How far the arm may still move (m).
     gap: f64,
@@ -144,9 +144,9 @@ impl Watch<'_> {
     /// last look.
     pub(in crate::planners) fn at(&mut self, q: &[f64], moved: f64) -> f64 {
         self.gap -= moved;
-        let mut violation = self.track.beyond(q, self.start);
+        let mut violation = self.path_objective.beyond(q, self.start);
         if self.gap <= 0.0 {
-            let look = self.track.contacts.look(q);
+            let look = self.path_objective.contacts.look(q);
             self.gap = look.gap;
             violation += look.violation;
         }

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use super::slabs::Slab;
 use crate::geometry::{Point, Vector};
-use crate::surface::{Across, Side, Surface, SurfaceError, SurfacePlace};
+use crate::mesh::{Across, MeshError, MeshPoint, NavigationMesh, Side};
 
 /// Stretches shorter than this are left out, and places no farther outside a cell are in it: rounding.
 const SHORTEST: f64 = 1e-12;
@@ -22,18 +22,18 @@ pub(super) struct Stretch {
     pub(super) round: bool,
 }
 
-/// The openings of slabs as the cells of a surface.
-pub(crate) struct Sewn {
-    pub(crate) surface: Surface,
+/// The openings of slabs as the cells of a mesh.
+pub(crate) struct ConnectedCells {
+    pub(crate) mesh: NavigationMesh,
     slabs: Vec<Slab>,
     openings: Vec<Vec<Opening>>,
     /// The first cell of each slab.
     first_cells: Vec<usize>,
 }
 
-impl Sewn {
-    /// Where `point` is on the surface, if it is in the open.
-    pub(crate) fn place(&self, point: Point) -> Option<SurfacePlace> {
+impl ConnectedCells {
+    /// Where `point` is on the mesh, if it is in the open.
+    pub(crate) fn place(&self, point: Point) -> Option<MeshPoint> {
         // Slabs lie in order; a place between two of them is in either.
         let after = self.slabs.partition_point(|slab| slab.x[0] <= point.x);
         [after.checked_sub(1), after.checked_sub(2)].into_iter().flatten().find_map(|slab| {
@@ -45,7 +45,7 @@ impl Sewn {
             };
             let inside = (-SHORTEST..=1.0 + SHORTEST).contains(&share);
             let i = self.openings[slab].iter().position(|open| inside && holds(open))?;
-            Some(SurfacePlace { cell: self.first_cells[slab] + i, point })
+            Some(MeshPoint { cell: self.first_cells[slab] + i, point })
         })
     }
 }
@@ -58,9 +58,13 @@ struct Gate {
     right: usize,
 }
 
-/// Cells of what is open in `stretches`, sewn together along the slabs' ends and, where the second joint goes `round`,
+/// Cells of what is open in `stretches`, joined along the slabs' ends and, where the second joint goes `round`,
 /// along the ends of its `range`.
-pub(super) fn sew(stretches: Vec<Stretch>, range: [f64; 2], round: bool) -> Result<Sewn, SurfaceError> {
+pub(super) fn connect(
+    stretches: Vec<Stretch>,
+    range: [f64; 2],
+    round: bool,
+) -> Result<ConnectedCells, MeshError> {
     let slabs: Vec<&Slab> = stretches.iter().flat_map(|stretch| &stretch.slabs).collect();
     let openings: Vec<Vec<Opening>> = slabs.iter().map(|slab| openings(slab, range)).collect();
     let mut first_cells = vec![0];
@@ -155,10 +159,10 @@ pub(super) fn sew(stretches: Vec<Stretch>, range: [f64; 2], round: bool) -> Resu
             cells[end - 1][top].across = to(first, bottom, -TAU);
         }
     }
-    let surface = Surface::new(&cells)?;
+    let mesh = NavigationMesh::new(&cells)?;
     first_cells.pop();
     let slabs = stretches.into_iter().flat_map(|stretch| stretch.slabs).collect();
-    Ok(Sewn { surface, slabs, openings, first_cells })
+    Ok(ConnectedCells { mesh, slabs, openings, first_cells })
 }
 
 /// What the barriers of a slab leave open.
@@ -218,8 +222,8 @@ mod tests {
 
     use super::super::slabs::Barrier;
     use super::*;
+    use crate::mesh::{Measure, geodesic};
     use crate::random::unit;
-    use crate::surface::{Measure, taut_path};
 
     /// Slabs over [0, n] x [0, 4], their barriers straight on or square, begun and ended at random.
     fn random_slabs(rng: &mut ChaCha8Rng) -> Vec<Slab> {
@@ -253,9 +257,9 @@ mod tests {
             .collect()
     }
 
-    fn holds(sewn: &Sewn, point: Point) -> bool {
-        (0..sewn.surface.len()).any(|cell| {
-            let sides = sewn.surface.sides(cell);
+    fn holds(connected: &ConnectedCells, point: Point) -> bool {
+        (0..connected.mesh.len()).any(|cell| {
+            let sides = connected.mesh.sides(cell);
             (0..sides.len()).all(|i| {
                 let (a, b) = (sides[i].from, sides[(i + 1) % sides.len()].from);
                 (b - a).cross(point - a) >= -1e-9
@@ -263,10 +267,10 @@ mod tests {
         })
     }
 
-    fn judged(sewn: &Sewn, start: Point, goal: Point) -> Option<f64> {
+    fn judged(connected: &ConnectedCells, start: Point, goal: Point) -> Option<f64> {
         let mut walls = Vec::new();
-        for cell in 0..sewn.surface.len() {
-            let sides = sewn.surface.sides(cell);
+        for cell in 0..connected.mesh.len() {
+            let sides = connected.mesh.sides(cell);
             for (i, side) in sides.iter().enumerate().filter(|(_, side)| side.across.is_none()) {
                 walls.push((side.from, sides[(i + 1) % sides.len()].from));
             }
@@ -287,7 +291,7 @@ mod tests {
             };
             !points.iter().any(between)
                 && !walls.iter().any(crosses)
-                && (0..=600).all(|k| holds(sewn, a.lerp(b, f64::from(k) / 600.0)))
+                && (0..=600).all(|k| holds(connected, a.lerp(b, f64::from(k) / 600.0)))
         };
         let mut costs = vec![f64::INFINITY; points.len()];
         let mut done = vec![false; points.len()];
@@ -318,11 +322,12 @@ mod tests {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let slabs = random_slabs(&mut rng);
             let width = slabs[slabs.len() - 1].x[1];
-            let sewn = sew(vec![Stretch { slabs, round: false }], [0.0, 4.0], false).unwrap();
+            let connected = connect(vec![Stretch { slabs, round: false }], [0.0, 4.0], false).unwrap();
             let mut place = || loop {
                 let point = Point::new(width * unit(&mut rng), 4.0 * unit(&mut rng));
-                if let Some(cell) = (0..sewn.surface.len()).find(|&cell| sewn.surface.holds(cell, point)) {
-                    return SurfacePlace { cell, point };
+                if let Some(cell) = (0..connected.mesh.len()).find(|&cell| connected.mesh.holds(cell, point))
+                {
+                    return MeshPoint { cell, point };
                 }
             };
             let (start, goal) = (place(), place());
@@ -331,8 +336,8 @@ mod tests {
                 looks.set(looks.get() + 1);
                 looks.get() < 100
             };
-            let path = taut_path(&sewn.surface, &[start], &[goal], Measure::Euclidean, &[], &keep_going);
-            let judged = judged(&sewn, start.point, goal.point);
+            let path = geodesic(&connected.mesh, &[start], &[goal], Measure::Euclidean, &[], &keep_going);
+            let judged = judged(&connected, start.point, goal.point);
             match (path.map(|path| path.cost), judged) {
                 (None, None) => {}
                 (Some(a), Some(b)) if (a - b).abs() < 1e-7 => found += 1,

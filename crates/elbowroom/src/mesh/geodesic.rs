@@ -5,7 +5,7 @@
 use std::collections::BinaryHeap;
 
 use super::Measure;
-use super::cells::{Across, NONE, Surface};
+use super::cells::{Across, NONE, NavigationMesh};
 use super::node::{Bent, Goal, Node, Waiting};
 use super::sight::{below, crossing_of, seen, snapped};
 use crate::geometry::{Point, Vector};
@@ -13,15 +13,15 @@ use crate::geometry::{Point, Vector};
 /// Costs that differ by less than this share are the same: paths to one vertex may differ in what they see beyond.
 const COST_ROUNDING: f64 = 1e-12;
 
-/// How near to a vertex a ray meets it, in roundings of the surface.
+/// How near to a vertex a ray meets it, in roundings of the mesh.
 const SNAP: f64 = 10.0;
 
 /// Search nodes between two questions whether to keep going.
 const NODES_PER_LOOK: usize = 4096;
 
-/// A place on a surface.
+/// A place on a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SurfacePlace {
+pub struct MeshPoint {
     /// A cell that holds it.
     pub cell: usize,
     /// Where it is in the cell's plane.
@@ -30,12 +30,12 @@ pub struct SurfacePlace {
 
 /// A shortest path.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TautPath {
+pub struct Geodesic {
     /// What it costs.
     pub cost: f64,
     /// Where it begins, where it enters each cell or bends, and where it ends; between two of them it is straight
     /// and stays in the cell of the first. A place on a seam has the cell entered.
-    pub places: Vec<SurfacePlace>,
+    pub places: Vec<MeshPoint>,
     /// For each place, how far planes were shifted since the start.
     pub shifts: Vec<Vector>,
 }
@@ -48,31 +48,31 @@ pub struct TautPath {
 ///
 /// # Reference
 /// Cui, Harabor and Grastien, *Compromise-free pathfinding on a navigation mesh*, IJCAI 2017 (Polyanya); here on
-/// surfaces that may wrap round.
-pub fn taut_path(
-    surface: &Surface,
-    starts: &[SurfacePlace],
-    goals: &[SurfacePlace],
+/// meshes that may wrap round.
+pub fn geodesic(
+    mesh: &NavigationMesh,
+    starts: &[MeshPoint],
+    goals: &[MeshPoint],
     measure: Measure,
     images: &[Point],
     keep_going: &dyn Fn() -> bool,
-) -> Option<TautPath> {
-    let reached = surface.reached_from(starts.iter().map(|start| start.cell));
+) -> Option<Geodesic> {
+    let reached = mesh.reached_from(starts.iter().map(|start| start.cell));
     // Without a way the search would go round and round.
-    let goals: Vec<SurfacePlace> = goals.iter().copied().filter(|goal| reached[goal.cell]).collect();
+    let goals: Vec<MeshPoint> = goals.iter().copied().filter(|goal| reached[goal.cell]).collect();
     if goals.is_empty() {
         return None;
     }
     let mut search = Search {
-        surface,
+        mesh,
         measure,
         images,
-        to_go: vec![f64::NAN; surface.len()],
-        goals_in: vec![Vec::new(); surface.len()],
+        to_go: vec![f64::NAN; mesh.len()],
+        goals_in: vec![Vec::new(); mesh.len()],
         nodes: Vec::new(),
         waiting: BinaryHeap::new(),
-        costs: vec![f64::INFINITY; surface.sides.len()],
-        turned: vec![[f64::INFINITY; 2]; surface.sides.len()],
+        costs: vec![f64::INFINITY; mesh.sides.len()],
+        turned: vec![[f64::INFINITY; 2]; mesh.sides.len()],
     };
     for goal in &goals {
         search.goals_in[goal.cell].push(goal.point);
@@ -81,9 +81,9 @@ pub fn taut_path(
         search.start(start);
     }
     // No shortest path is longer than one that goes round every cell; a search beyond that lost its way by rounding.
-    let longest: f64 = (0..surface.len())
+    let longest: f64 = (0..mesh.len())
         .flat_map(|cell| {
-            let sides = surface.sides(cell);
+            let sides = mesh.sides(cell);
             (0..sides.len()).map(move |i| measure.of(sides[(i + 1) % sides.len()].from - sides[i].from))
         })
         .sum();
@@ -102,7 +102,7 @@ pub fn taut_path(
 }
 
 struct Search<'a> {
-    surface: &'a Surface,
+    mesh: &'a NavigationMesh,
     measure: Measure,
     images: &'a [Point],
     /// Least cost from each cell to a goal; NaN until asked for.
@@ -128,7 +128,7 @@ enum View {
 }
 
 impl Search<'_> {
-    fn start(&mut self, start: &SurfacePlace) {
+    fn start(&mut self, start: &MeshPoint) {
         let place = start.point;
         self.nodes.push(Node {
             cell: start.cell as u32,
@@ -151,7 +151,7 @@ impl Search<'_> {
     /// Least cost from a place of `cell` to a goal.
     fn least_to_go(&mut self, cell: usize) -> f64 {
         if self.to_go[cell].is_nan() {
-            let sides = self.surface.sides(cell);
+            let sides = self.mesh.sides(cell);
             let (mut low, mut high) = (sides[0].from, sides[0].from);
             for side in sides {
                 low = Point::new(low.x.min(side.from.x), low.y.min(side.from.y));
@@ -172,15 +172,14 @@ impl Search<'_> {
         let view = if node.side == NONE { View::All } else { view(&node) };
         self.look_for_goals(index, &node, &view);
 
-        let (cell, begin) = (node.cell as usize, self.surface.begins[node.cell as usize] as usize);
-        let count = self.surface.begins[cell + 1] as usize - begin;
+        let (cell, begin) = (node.cell as usize, self.mesh.begins[node.cell as usize] as usize);
+        let count = self.mesh.begins[cell + 1] as usize - begin;
         let skip = if node.side == NONE { 0 } else { 1 };
         let first = if node.side == NONE { 0 } else { node.side as usize - begin };
         for i in skip..count {
             let side = begin + (first + i) % count;
-            let Some(across) = self.surface.sides[side].across else { continue };
-            let (p, q) =
-                (self.surface.sides[side].from, self.surface.sides[self.surface.next(cell, side)].from);
+            let Some(across) = self.mesh.sides[side].across else { continue };
+            let (p, q) = (self.mesh.sides[side].from, self.mesh.sides[self.mesh.next(cell, side)].from);
             let (seen_from, seen_to) = match &view {
                 View::All => (0.0, 1.0),
                 View::EdgeOn(Bent::Right) => (1.0, 1.0),
@@ -188,7 +187,7 @@ impl Search<'_> {
                 View::Between { right, left } => {
                     let (from, to) = seen(&node.root, right, left, p, q);
                     // A ray that all but meets a vertex meets it: there paths may bend.
-                    let near = SNAP * self.surface.rounding / (q - p).length_squared().sqrt();
+                    let near = SNAP * self.mesh.rounding / (q - p).length_squared().sqrt();
                     (snapped(from, near), snapped(to, near))
                 }
             };
@@ -244,7 +243,7 @@ impl Search<'_> {
             Bent::Left => (node.left, node.left_vertex),
             Bent::Right => (node.right, node.right_vertex),
         };
-        let can = vertex != NONE && self.surface.bends[vertex as usize];
+        let can = vertex != NONE && self.mesh.bends[vertex as usize];
         can.then(|| (point, vertex, node.cost + self.measure.of(point - node.root)))
     }
 
@@ -268,8 +267,8 @@ impl Search<'_> {
     ) {
         let Stretch { side, from, to, across, .. } = *stretch;
         let cell = node.cell as usize;
-        let (right, right_vertex) = stretch.end(from, self.surface.vertices[side], NONE);
-        let (left, left_vertex) = stretch.end(to, NONE, self.surface.vertices[self.surface.next(cell, side)]);
+        let (right, right_vertex) = stretch.end(from, self.mesh.vertices[side], NONE);
+        let (left, left_vertex) = stretch.end(to, NONE, self.mesh.vertices[self.mesh.next(cell, side)]);
         if (left - right).length_squared() == 0.0 {
             return;
         }
@@ -282,7 +281,7 @@ impl Search<'_> {
         }
         let next = Node {
             cell: across.cell as u32,
-            side: self.surface.begins[across.cell] + across.side as u32,
+            side: self.mesh.begins[across.cell] + across.side as u32,
             left: left + across.shift,
             right: right + across.shift,
             left_vertex,
@@ -300,7 +299,7 @@ impl Search<'_> {
     }
 
     /// The path to `goal` in the cell of `node`, followed back.
-    fn path(&self, node: u32, goal: Goal, cost: f64) -> TautPath {
+    fn path(&self, node: u32, goal: Goal, cost: f64) -> Geodesic {
         let mut places = vec![(goal.point, self.nodes[node as usize].cell, Vector::default())];
         let mut target = goal.point;
         let mut bent = goal.bent;
@@ -317,9 +316,8 @@ impl Search<'_> {
             }
             let enters = crossing_of(node.root, target, node.left, node.right);
             // The side knows the way back, out of the cell entered.
-            let back = self.surface.sides[node.side as usize]
-                .across
-                .map_or(Vector::default(), |across| across.shift);
+            let back =
+                self.mesh.sides[node.side as usize].across.map_or(Vector::default(), |across| across.shift);
             places.push((enters, node.cell, -back));
             target = target + back;
             bent = node.bent;
@@ -331,13 +329,10 @@ impl Search<'_> {
             shifted = shifted + *shift;
             shifted
         });
-        TautPath {
+        Geodesic {
             cost,
             shifts: shifts.collect(),
-            places: places
-                .iter()
-                .map(|&(point, cell, _)| SurfacePlace { cell: cell as usize, point })
-                .collect(),
+            places: places.iter().map(|&(point, cell, _)| MeshPoint { cell: cell as usize, point }).collect(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Lets swarms hunt for the best candidate that is certified, one swarm after the other, until the budget is spent.
+//! The incumbent: the best candidate so far that is certified, whichever swarm found it, until the budget is spent.
 
 use crate::planning::{Budget, Effort, Exhausted, Monitor, PlanError};
 use crate::swarm::Fitness;
@@ -7,20 +7,20 @@ use crate::swarm::Fitness;
 const REFUSED: f64 = 1e-12;
 
 /// Judges candidates and keeps the best that is certified.
-pub(in crate::planners) struct Hunt<'a, T> {
+pub(in crate::planners) struct Incumbent<'a, T> {
     budget: Budget<'a>,
     best: Option<(f64, T)>,
     ended: Option<Exhausted>,
 }
 
-impl<'a, T> Hunt<'a, T> {
+impl<'a, T> Incumbent<'a, T> {
     pub(in crate::planners) fn new(evaluations: usize, monitor: &'a dyn Monitor) -> Self {
         Self { budget: Budget::new(evaluations, monitor), best: None, ended: None }
     }
 
     /// The fitness of a candidate of this cost and violation. One that seems to be the best is certified first: `certify`
     /// gives what it stands for, or `None` if it is not free after all.
-    pub(in crate::planners) fn judge(
+    pub(in crate::planners) fn evaluate(
         &mut self,
         violation: impl FnOnce() -> f64,
         cost: impl FnOnce() -> f64,
@@ -65,12 +65,12 @@ impl<'a, T> Hunt<'a, T> {
 }
 
 /// Iterations without a better candidate after which a swarm is given up.
-pub(in crate::planners) struct Patience {
+pub(in crate::planners) struct Stagnation {
     left: usize,
     best: Fitness,
 }
 
-impl Patience {
+impl Stagnation {
     const ITERATIONS: usize = 60;
 
     pub(in crate::planners) fn new() -> Self {

@@ -1,5 +1,5 @@
-use super::sew::{Sewn, Stretch, sew};
-use super::slabs::{Cutter, Walls};
+use super::connect::{ConnectedCells, Stretch, connect};
+use super::slabs::{Approximation, Cutter};
 use crate::free_space::merged;
 use crate::geometry::{Point, Segment, Shape, Vector};
 use crate::scene::TwoLinkScene;
@@ -8,14 +8,14 @@ use crate::verify::innermost_reach;
 /// How wide the slabs are that are begun with, as a share of the reach.
 const WIDEST: f64 = 0.03;
 
-/// Where the tip may be in whatever posture, as a surface over the world's plane (m): the square around the reach
+/// Where the tip may be in whatever posture, as a mesh over the world's plane (m): the square around the reach
 /// without the obstacles and without the disc that the second joint keeps the tip out of. More than all that can be
 /// reached, for it does not heed what the links touch.
-pub(crate) fn tip_chart(
+pub(crate) fn workspace_cells(
     scene: TwoLinkScene<'_>,
-    walls: Walls,
+    approximation: Approximation,
     keep_going: &dyn Fn() -> bool,
-) -> Option<Sewn> {
+) -> Option<ConnectedCells> {
     let arm = scene.arm();
     let (base, [_, reach]) = (arm.base(), arm.reach());
     let range = [base.y - reach, base.y + reach];
@@ -32,13 +32,13 @@ pub(crate) fn tip_chart(
         });
         merged(found)
     };
-    let walls = Walls { distance: walls.distance * reach, ..walls };
-    let cutter = Cutter { forbidden: &forbidden, walls, range, widest: WIDEST * reach };
+    let approximation = Approximation { distance: approximation.distance * reach, ..approximation };
+    let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST * reach };
     if !keep_going() {
         return None;
     }
     let slabs = cutter.slabs(base.x - reach, base.x + reach);
-    sew(vec![Stretch { slabs, round: false }], range, false).ok()
+    connect(vec![Stretch { slabs, round: false }], range, false).ok()
 }
 
 /// Where the line at `x` runs through a disc.

@@ -6,15 +6,15 @@ use crate::geometry::{Point, Segment};
 use crate::scene::Scene;
 
 /// What a configuration is like.
-pub(super) struct Look {
-    /// See [`Contacts::violation`].
-    pub(super) violation: f64,
+pub(crate) struct Look {
+    /// See [`Penetration::violation`].
+    pub(crate) violation: f64,
     /// As long as no point of the arm moves farther than this (m), the violation stays 0; not above 0 where it is not.
-    pub(super) gap: f64,
+    pub(crate) gap: f64,
 }
 
 /// All that the arm of a scene must not touch, prepared for looking at it many times.
-pub(super) struct Contacts<'a> {
+pub(crate) struct Penetration<'a> {
     scene: &'a Scene,
     /// Clearance that counts as none (m).
     margin: f64,
@@ -22,20 +22,20 @@ pub(super) struct Contacts<'a> {
     discs: Vec<(Point, f64)>,
 }
 
-impl<'a> Contacts<'a> {
-    pub(super) fn new(scene: &'a Scene, margin: f64) -> Self {
+impl<'a> Penetration<'a> {
+    pub(crate) fn new(scene: &'a Scene, margin: f64) -> Self {
         let discs = scene.obstacles().iter().map(|obstacle| obstacle.shape.bounding_circle());
         Self { scene, margin, discs: discs.collect() }
     }
 
     /// By how much links at `q` (rad) come nearer than the margin to what they must keep clear of, summed up over all that
     /// do (m); 0 where none does. It grows with the depth of every contact, so that there is always a way out.
-    pub(super) fn violation(&self, q: &[f64]) -> f64 {
+    pub(crate) fn violation(&self, q: &[f64]) -> f64 {
         self.look(q).violation
     }
 
     /// The violation at `q` (rad), and how far it is from there to the next.
-    pub(super) fn look(&self, q: &[f64]) -> Look {
+    pub(crate) fn look(&self, q: &[f64]) -> Look {
         let arm = self.scene.arm();
         let links: SmallVec<[Segment; 8]> = arm.link_segments(q).collect();
         let needed = self.margin + arm.half_width();

@@ -7,13 +7,13 @@ use crate::scene::TwoLinkScene;
 /// Clearances of each link beyond what is to be kept (m), rounded down: from the obstacle nearest to it, and from all
 /// others.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Nearest {
+pub(super) struct CachedClearance {
     obstacle: [u16; 2],
     clearance: [f32; 2],
     others: [f32; 2],
 }
 
-impl Nearest {
+impl CachedClearance {
     /// Whether the clearances here and at `other` are enough for links whose points move no farther than `bounds` (m)
     /// between the two.
     pub(super) fn are_enough_with(&self, other: &Self, bounds: [f64; 2]) -> bool {
@@ -67,10 +67,10 @@ impl<'a> Obstacles<'a> {
     }
 
     /// What is nearest to the arm at `q`.
-    pub(super) fn nearest_to(&self, q: &[f64; 2]) -> Nearest {
-        let kept = self.scene.arm().half_width() + CERTIFIED_CLEARANCE;
+    pub(super) fn nearest_to(&self, q: &[f64; 2]) -> CachedClearance {
+        let cache = self.scene.arm().half_width() + CERTIFIED_CLEARANCE;
         let mut nearest =
-            Nearest { obstacle: [0; 2], clearance: [f32::INFINITY; 2], others: [f32::INFINITY; 2] };
+            CachedClearance { obstacle: [0; 2], clearance: [f32::INFINITY; 2], others: [f32::INFINITY; 2] };
         for (link, segment) in self.scene.arm().link_segments(q).into_iter().enumerate() {
             let (mut first, mut second, mut obstacle) = (f64::INFINITY, f64::INFINITY, 0);
             let mut look = |index: u16, distance: f64| {
@@ -86,8 +86,8 @@ impl<'a> Obstacles<'a> {
                 look(index, self.scene.obstacles()[usize::from(index)].distance_to_segment(segment));
             }
             nearest.obstacle[link] = obstacle;
-            nearest.clearance[link] = ((first - kept) as f32).next_down();
-            nearest.others[link] = ((second - kept) as f32).next_down();
+            nearest.clearance[link] = ((first - cache) as f32).next_down();
+            nearest.others[link] = ((second - cache) as f32).next_down();
         }
         nearest
     }

@@ -1,5 +1,5 @@
-use super::posture_graph::{FLIP_BAND, LEAST_COST, PostureGraph};
-use super::sheets::{Kept, Record};
+use super::branch_grid::{CachedNode, NodeCache};
+use super::posture_graph::{LEAST_COST, PostureGraph, SINGULAR_BAND};
 use crate::arm::Posture;
 use crate::free_space::{FreeSpace, ShortWays, cells_near_moved};
 use crate::geometry::Point;
@@ -11,7 +11,7 @@ use crate::search::{Dstar, Graph};
 /// blocked now are visited too, as D* asks.
 ///
 /// Its places are the goals; they are no neighbours of each other, for no way leads on from a goal.
-pub(crate) struct ChangingGraph<'a> {
+pub(crate) struct DynamicGraph<'a> {
     graph: PostureGraph<'a>,
     goals: &'a [Goal],
 }
@@ -37,26 +37,26 @@ impl Join {
     }
 }
 
-impl<'a> ChangingGraph<'a> {
-    /// The graph over the map of `scene`; `kept` and `goals` are those of another of the same arm and grid, told by
+impl<'a> DynamicGraph<'a> {
+    /// The graph over the map of `scene`; `cache` and `goals` are those of another of the same arm and grid, told by
     /// [`obstacles_moved`](Self::obstacles_moved) of every change since.
     pub(crate) fn new(
         scene: TwoLinkScene<'a>,
         space: &'a FreeSpace,
-        may_flip: bool,
-        (kept, goals): (Kept, &'a [Goal]),
+        may_change_posture: bool,
+        (cache, goals): (NodeCache, &'a [Goal]),
     ) -> Self {
-        Self { graph: PostureGraph::with(scene, space, may_flip, kept), goals }
+        Self { graph: PostureGraph::with(scene, space, may_change_posture, cache), goals }
     }
 
     /// What is known by now.
-    pub(crate) fn into_kept(self) -> Kept {
-        self.graph.sheets.into_kept()
+    pub(crate) fn into_cache(self) -> NodeCache {
+        self.graph.branches.into_cache()
     }
 
     /// The nodes of the goals.
     pub(crate) fn goal_nodes(&self) -> impl Iterator<Item = usize> + use<> {
-        let cells = self.graph.sheets.len();
+        let cells = self.graph.branches.len();
         cells..cells + self.goals.len()
     }
 
@@ -65,9 +65,9 @@ impl<'a> ChangingGraph<'a> {
         let graph = &self.graph;
         let goal = |&q: &[f64; 2]| {
             let tip = graph.scene.arm().tip(&q);
-            let around = graph.scene.grid().corners(tip).flat_map(|cell| graph.sheets.over(cell));
+            let around = graph.scene.grid().corners(tip).flat_map(|cell| graph.branches.over(cell));
             let joined = around.filter_map(|node| {
-                let to = graph.sheets.stand(node)?;
+                let to = graph.branches.stand(node)?;
                 let cost = graph.cost(tip, graph.tip(node), &q, &to);
                 Some(Join { node, to, cost, is_certified: false })
             });
@@ -88,21 +88,21 @@ impl<'a> ChangingGraph<'a> {
     pub(crate) fn forget_near(&self, before: &[Obstacle], most: usize) -> Option<Vec<usize>> {
         let forgotten = self.near_moved(before, most);
         match &forgotten {
-            Some(nodes) => nodes.iter().for_each(|&node| self.graph.sheets.forget(node)),
-            None => self.graph.sheets.forget_all(),
+            Some(nodes) => nodes.iter().for_each(|&node| self.graph.branches.forget(node)),
+            None => self.graph.branches.forget_all(),
         }
         forgotten
     }
 
     fn near_moved(&self, before: &[Obstacle], most: usize) -> Option<Vec<usize>> {
-        let PostureGraph { scene, sheets, .. } = &self.graph;
+        let PostureGraph { scene, branches, .. } = &self.graph;
         let step = scene.grid().step();
         // Diagonals, and a hair for rounding.
-        let ways = ShortWays { length: 1.4143 * step, band: 1.01 * FLIP_BAND * step };
+        let ways = ShortWays { length: 1.4143 * step, band: 1.01 * SINGULAR_BAND * step };
         let mut near = Vec::new();
         for posture in Posture::ALL {
             for cell in cells_near_moved(*scene, before, posture, ways, most.saturating_sub(near.len()))? {
-                near.extend(sheets.over(cell).filter(|&node| sheets.posture(node) == posture));
+                near.extend(branches.over(cell).filter(|&node| branches.posture(node) == posture));
             }
         }
         Some(near)
@@ -117,12 +117,12 @@ impl<'a> ChangingGraph<'a> {
         }
         for &node in nodes {
             if let Some(next) = field.next(node)
-                && next < self.graph.sheets.len()
+                && next < self.graph.branches.len()
                 && self.edge(node, next).is_none()
             {
                 field.step_changed(node, next, f64::INFINITY);
             }
-            if self.graph.sheets.is_free(node) {
+            if self.graph.branches.is_free(node) {
                 self.tell_of_shortcuts(field, node);
             }
         }
@@ -130,32 +130,32 @@ impl<'a> ChangingGraph<'a> {
 
     /// Tells of edges that would shorten a way if they were certified.
     fn tell_of_shortcuts(&self, field: &mut Dstar, node: usize) {
-        let PostureGraph { scene, sheets, .. } = &self.graph;
-        let (_, cell) = sheets.sheet_and_cell(node);
+        let PostureGraph { scene, branches, .. } = &self.graph;
+        let (_, cell) = branches.branch_and_cell(node);
         let mut shortcut = |other: usize, least: f64| {
             let (here, there) = (field.cost_to_go(node), field.cost_to_go(other));
             if (here + least < there || there + least < here)
                 && field.next(node) != Some(other)
                 && field.next(other) != Some(node)
-                && sheets.is_free(other)
+                && branches.is_free(other)
             {
                 field.step_changed(node, other, least);
             }
         };
         let crosses = self.crosses(node);
-        for (direction, neighbour) in sheets.around(cell).into_iter().enumerate() {
+        for (direction, neighbour) in branches.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
             // The other four are those of the neighbours, which the same obstacle is near to.
             if direction < 4 {
                 shortcut(node - cell + neighbour, scene.grid().neighbour_distance(direction));
             }
             if crosses {
-                let across = sheets.over(neighbour).filter(|&other| self.is_across(node, other));
+                let across = branches.over(neighbour).filter(|&other| self.is_across(node, other));
                 across.for_each(|other| shortcut(other, scene.grid().neighbour_distance(direction)));
             }
         }
         if crosses {
-            let across = sheets.over(cell).filter(|&other| self.is_across(node, other));
+            let across = branches.over(cell).filter(|&other| self.is_across(node, other));
             across.for_each(|other| shortcut(other, LEAST_COST * scene.grid().step()));
         }
     }
@@ -163,11 +163,11 @@ impl<'a> ChangingGraph<'a> {
     /// The edges from `q` to nodes around it, those of goals near by among them: those that are certified, with their
     /// costs.
     pub(crate) fn around(&self, q: &[f64; 2]) -> Vec<(usize, f64)> {
-        let PostureGraph { scene, sheets, .. } = &self.graph;
+        let PostureGraph { scene, branches, .. } = &self.graph;
         let tip = scene.arm().tip(q);
         let mut joined = Vec::new();
-        for node in scene.grid().corners(tip).flat_map(|cell| sheets.over(cell)) {
-            if let Some(to) = sheets.configuration(node)
+        for node in scene.grid().corners(tip).flat_map(|cell| branches.over(cell)) {
+            if let Some(to) = branches.configuration(node)
                 && self.graph.is_certified(q, &to)
             {
                 joined.push((node, self.graph.cost(tip, self.graph.tip(node), q, &to)));
@@ -185,9 +185,9 @@ impl<'a> ChangingGraph<'a> {
     pub(crate) fn joint_path(&self, q: &[f64; 2], nodes: &[usize]) -> Option<JointPath> {
         let mut configurations = vec![*q];
         for &node in nodes {
-            configurations.push(match node.checked_sub(self.graph.sheets.len()) {
+            configurations.push(match node.checked_sub(self.graph.branches.len()) {
                 Some(goal) => self.goals.get(goal)?.q,
-                None => self.graph.sheets.configuration(node)?,
+                None => self.graph.branches.configuration(node)?,
             });
         }
         self.graph.turns_through(&configurations)
@@ -195,39 +195,39 @@ impl<'a> ChangingGraph<'a> {
 
     /// The cost of the edge between two nodes that are neighbours, neither of them a goal's, if it is certified.
     fn edge(&self, node: usize, other: usize) -> Option<f64> {
-        let PostureGraph { scene, sheets, .. } = &self.graph;
-        let (place, from) = sheets.look(node)?;
-        let ((_, cell), (_, there)) = (sheets.sheet_and_cell(node), sheets.sheet_and_cell(other));
-        let direction = sheets.around(cell).iter().position(|&around| around == Some(there));
+        let PostureGraph { scene, branches, .. } = &self.graph;
+        let (place, from) = branches.look(node)?;
+        let ((_, cell), (_, there)) = (branches.branch_and_cell(node), branches.branch_and_cell(other));
+        let direction = branches.around(cell).iter().position(|&around| around == Some(there));
         match direction {
-            Some(direction) if sheets.same_sheet(node, other) => self
+            Some(direction) if branches.same_branch(node, other) => self
                 .graph
-                .sheet_edge(node, (place, &from), other, direction)
+                .branch_edge(node, (place, &from), other, direction)
                 .then(|| scene.grid().neighbour_distance(direction)),
             _ => self.graph.across(node, (place, &from), other, direction),
         }
     }
 
-    /// Whether `node` may have edges to other sheets at all, whatever the obstacles.
+    /// Whether `node` may have edges to other branches at all, whatever the obstacles.
     fn crosses(&self, node: usize) -> bool {
-        let PostureGraph { sheets, may_flip, .. } = &self.graph;
-        sheets.several_per_posture() || (*may_flip && sheets.is_near_edge(node))
+        let PostureGraph { branches, may_change_posture, .. } = &self.graph;
+        branches.several_per_posture() || (*may_change_posture && branches.is_near_edge(node))
     }
 
-    /// Whether there may be an edge to `other`, on another sheet, from a node near it that crosses.
+    /// Whether there may be an edge to `other`, on another branch, from a node near it that crosses.
     fn is_across(&self, node: usize, other: usize) -> bool {
-        let PostureGraph { sheets, .. } = &self.graph;
-        !sheets.same_sheet(node, other) && (sheets.same_posture(node, other) || self.crosses(other))
+        let PostureGraph { branches, .. } = &self.graph;
+        !branches.same_branch(node, other) && (branches.same_posture(node, other) || self.crosses(other))
     }
 
     fn visit_across(
         &self,
         node: usize,
-        look: Option<&(usize, Record)>,
+        look: Option<&(usize, CachedNode)>,
         (cell, direction): (usize, Option<usize>),
         visit: &mut impl FnMut(usize, f64),
     ) {
-        for other in self.graph.sheets.over(cell).filter(|&other| self.is_across(node, other)) {
+        for other in self.graph.branches.over(cell).filter(|&other| self.is_across(node, other)) {
             let cost =
                 look.and_then(|(place, from)| self.graph.across(node, (*place, from), other, direction));
             visit(other, cost.unwrap_or(f64::INFINITY));
@@ -243,37 +243,37 @@ impl Goal {
 
     fn look_again(&mut self, graph: &PostureGraph) {
         for join in &mut self.joined {
-            join.is_certified = graph.sheets.is_free(join.node) && graph.is_certified(&self.q, &join.to);
+            join.is_certified = graph.branches.is_free(join.node) && graph.is_certified(&self.q, &join.to);
         }
     }
 }
 
-impl Graph for ChangingGraph<'_> {
+impl Graph for DynamicGraph<'_> {
     fn len(&self) -> usize {
-        self.graph.sheets.len() + self.goals.len()
+        self.graph.branches.len() + self.goals.len()
     }
 
     fn neighbours(&self, node: usize, mut visit: impl FnMut(usize, f64)) {
-        let PostureGraph { scene, sheets, .. } = &self.graph;
-        if let Some(goal) = node.checked_sub(sheets.len()) {
+        let PostureGraph { scene, branches, .. } = &self.graph;
+        if let Some(goal) = node.checked_sub(branches.len()) {
             self.goals[goal].joined.iter().for_each(|join| visit(join.node, join.cost_now()));
             return;
         }
-        let look = sheets.look(node);
-        let (_, cell) = sheets.sheet_and_cell(node);
+        let look = branches.look(node);
+        let (_, cell) = branches.branch_and_cell(node);
         let crosses = match &look {
-            Some((_, from)) => sheets.several_per_posture() || self.graph.may_flip_at(from),
+            Some((_, from)) => branches.several_per_posture() || self.graph.may_change_posture_at(from),
             None => self.crosses(node),
         };
         if crosses {
             self.visit_across(node, look.as_ref(), (cell, None), &mut visit);
         }
-        for (direction, neighbour) in sheets.around(cell).into_iter().enumerate() {
+        for (direction, neighbour) in branches.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
             let other = node - cell + neighbour;
             let is_certified = look
                 .as_ref()
-                .is_some_and(|(place, from)| self.graph.sheet_edge(node, (*place, from), other, direction));
+                .is_some_and(|(place, from)| self.graph.branch_edge(node, (*place, from), other, direction));
             visit(
                 other,
                 if is_certified { scene.grid().neighbour_distance(direction) } else { f64::INFINITY },

@@ -31,9 +31,9 @@ pub struct Side {
     pub across: Option<Across>,
 }
 
-/// Why cells make no surface.
+/// Why cells make no mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum SurfaceError {
+pub enum MeshError {
     /// A cell has fewer than three sides, a coordinate that is no number, or does not turn left all the way round.
     #[error("cell {cell} is not convex and counter-clockwise")]
     Shape {
@@ -56,11 +56,11 @@ pub enum SurfaceError {
     },
 }
 
-/// Convex cells sewn together along whole sides: a flat surface with walls.
+/// Convex cells joined along whole sides: a flat mesh with walls.
 ///
 /// Each cell is a convex polygon, counter-clockwise in a plane of its own; sides that meet are equally long.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub struct NavigationMesh {
     pub(super) sides: Vec<Side>,
     /// Where in `sides` each cell begins; one more at the end.
     pub(super) begins: Vec<u32>,
@@ -72,15 +72,15 @@ pub struct Surface {
     pub(super) rounding: f64,
 }
 
-impl Surface {
-    /// The surface of `cells`, sewn together as their sides say.
+impl NavigationMesh {
+    /// The mesh of `cells`, joined as their sides say.
     ///
     /// # Errors
-    /// [`SurfaceError`]
-    pub fn new(cells: &[Vec<Side>]) -> Result<Self, SurfaceError> {
+    /// [`MeshError`]
+    pub fn new(cells: &[Vec<Side>]) -> Result<Self, MeshError> {
         let total: usize = cells.iter().map(Vec::len).sum();
         if total >= NONE as usize {
-            return Err(SurfaceError::TooMany { sides: total });
+            return Err(MeshError::TooMany { sides: total });
         }
         let mut begins = Vec::with_capacity(cells.len() + 1);
         let mut sides = Vec::with_capacity(total);
@@ -90,14 +90,14 @@ impl Surface {
         }
         begins.push(sides.len() as u32);
         let greatest = sides.iter().map(|side| side.from.x.abs().max(side.from.y.abs())).fold(0.0, f64::max);
-        let mut surface =
+        let mut mesh =
             Self { sides, begins, vertices: Vec::new(), bends: Vec::new(), rounding: ROUNDING * greatest };
         for cell in 0..cells.len() {
-            surface.check_shape(cell)?;
-            surface.check_seams(cell)?;
+            mesh.check_shape(cell)?;
+            mesh.check_seams(cell)?;
         }
-        surface.find_vertices();
-        Ok(surface)
+        mesh.find_vertices();
+        Ok(mesh)
     }
 
     /// How many cells there are.
@@ -143,7 +143,7 @@ impl Surface {
         if side + 1 == self.begins[cell + 1] as usize { self.begins[cell] as usize } else { side + 1 }
     }
 
-    fn check_shape(&self, cell: usize) -> Result<(), SurfaceError> {
+    fn check_shape(&self, cell: usize) -> Result<(), MeshError> {
         let sides = self.sides(cell);
         let n = sides.len();
         let point = |i: usize| sides[i % n].from;
@@ -157,17 +157,17 @@ impl Surface {
         }
         // Once round, not twice.
         sound &= (turned - std::f64::consts::TAU).abs() < 1e-3;
-        if sound { Ok(()) } else { Err(SurfaceError::Shape { cell }) }
+        if sound { Ok(()) } else { Err(MeshError::Shape { cell }) }
     }
 
-    fn check_seams(&self, cell: usize) -> Result<(), SurfaceError> {
+    fn check_seams(&self, cell: usize) -> Result<(), MeshError> {
         let sides = self.sides(cell);
         for (i, side) in sides.iter().enumerate() {
             let Some(across) = side.across else { continue };
             let other = (across.cell < self.len()).then(|| self.sides(across.cell));
             let back = other.and_then(|other| other.get(across.side)?.across);
             let (Some(other), Some(back)) = (other, back) else {
-                return Err(SurfaceError::Seam { cell, side: i });
+                return Err(MeshError::Seam { cell, side: i });
             };
             let (a, b) = (side.from, sides[(i + 1) % sides.len()].from);
             let (c, d) = (other[across.side].from, other[(across.side + 1) % other.len()].from);
@@ -176,7 +176,7 @@ impl Surface {
                 .max((b + across.shift).distance(c))
                 .max((across.shift + back.shift).length());
             if !(back.cell == cell && back.side == i && apart <= self.rounding) {
-                return Err(SurfaceError::Seam { cell, side: i });
+                return Err(MeshError::Seam { cell, side: i });
             }
         }
         Ok(())

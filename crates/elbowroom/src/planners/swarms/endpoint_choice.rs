@@ -8,12 +8,12 @@ use crate::swarm::{Bounds, BoundsError};
 const BEYOND: f64 = std::f64::consts::PI;
 
 /// Pairs of a start and a goal; a particle's last coordinate, in [0, 1], says which.
-pub(in crate::planners) struct Choice {
+pub(in crate::planners) struct EndpointChoice {
     pairs: Vec<[Configuration; 2]>,
     ranges: Vec<[f64; 2]>,
 }
 
-impl Choice {
+impl EndpointChoice {
     pub(in crate::planners) fn new(arm: &Arm, ends: &Endpoints) -> Self {
         let goals_of = |start: &Configuration| -> Vec<[Configuration; 2]> {
             ends.goals.iter().map(|goal| [start.clone(), arm.nearest_turn(start, goal)]).collect()

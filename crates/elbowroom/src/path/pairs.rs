@@ -1,7 +1,7 @@
 //! Between configurations of any arm and the pairs of angles (rad) that closed forms of two links work on.
 
+use super::JointPath;
 use crate::arm::Configuration;
-use crate::path::JointPath;
 
 /// `configurations` as pairs; none of an arm of more than two links.
 pub(crate) fn pairs(configurations: &[Configuration]) -> Vec<[f64; 2]> {

@@ -1,25 +1,25 @@
 use std::f64::consts::{PI, TAU};
 
-use super::sew::{Sewn, Stretch, sew};
-use super::slabs::{Cutter, Walls};
+use super::connect::{ConnectedCells, Stretch, connect};
+use super::slabs::{Approximation, Cutter};
 use crate::arm::JointLimits;
 use crate::free_space::Slices;
 use crate::geometry::{Point, wrap_angle};
+use crate::mesh::MeshPoint;
 use crate::scene::TwoLinkScene;
-use crate::surface::SurfacePlace;
 
 /// How wide the slabs are that are begun with (rad).
 const WIDEST: f64 = 0.06;
 
-/// The plane of both joints, x the first and y the second (rad), as a surface of what is open.
-pub(crate) struct JointChart {
-    pub(crate) sewn: Sewn,
+/// The plane of both joints, x the first and y the second (rad), as a mesh of what is open.
+pub(crate) struct JointSpaceCells {
+    pub(crate) connected: ConnectedCells,
     rounds: [bool; 2],
 }
 
 /// Where the second joint may be (rad) for each of `starts`: within its stops and, where the posture is to be kept,
 /// between full stretch and fold.
-pub(crate) fn sheet_ranges(
+pub(crate) fn branch_ranges(
     scene: TwoLinkScene<'_>,
     starts: &[[f64; 2]],
     keep_posture: bool,
@@ -33,9 +33,10 @@ pub(crate) fn sheet_ranges(
         let round = scene.arm().joints()[1].limits == JointLimits::Continuous;
         let angle = if round { wrap_angle(start[1]) } else { start[1] };
         let half_turn = (angle / PI).floor();
-        let sheets = if angle == half_turn * PI { vec![half_turn - 1.0, half_turn] } else { vec![half_turn] };
-        for sheet in sheets {
-            let range = [(sheet * PI).max(low), ((sheet + 1.0) * PI).min(high)];
+        let branches =
+            if angle == half_turn * PI { vec![half_turn - 1.0, half_turn] } else { vec![half_turn] };
+        for branch in branches {
+            let range = [(branch * PI).max(low), ((branch + 1.0) * PI).min(high)];
             if range[0] < range[1] && !ranges.contains(&range) {
                 ranges.push(range);
             }
@@ -51,45 +52,49 @@ fn second_range(scene: TwoLinkScene<'_>) -> [f64; 2] {
     }
 }
 
-impl JointChart {
-    /// The chart of `scene` with links that stay `margin` (m) clear and the second joint within `range` (rad); `None`
+impl JointSpaceCells {
+    /// The cells of `scene` with links that stay `margin` (m) clear and the second joint within `range` (rad); `None`
     /// where `keep_going` said no, or there are more cells than can be numbered.
     pub(crate) fn new(
         scene: TwoLinkScene<'_>,
         margin: f64,
         range: [f64; 2],
-        walls: Walls,
+        approximation: Approximation,
         keep_going: &dyn Fn() -> bool,
     ) -> Option<Self> {
         let slices = Slices::new(scene, margin);
         let forbidden = |x: f64| slices.second_joint(x, range);
-        let cutter = Cutter { forbidden: &forbidden, walls, range, widest: WIDEST };
+        let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST };
         let rounds = [
             scene.arm().joints()[0].limits == JointLimits::Continuous,
             scene.arm().joints()[1].limits == JointLimits::Continuous && range == [-PI, PI],
         ];
         let mut stretches = Vec::new();
-        for (ends, round) in open_stretches(scene, &slices, walls) {
+        for (ends, round) in open_stretches(scene, &slices, approximation) {
             if !keep_going() {
                 return None;
             }
             stretches.push(Stretch { slabs: cutter.slabs(ends[0], ends[1]), round });
         }
-        Some(Self { sewn: sew(stretches, range, rounds[1]).ok()?, rounds })
+        Some(Self { connected: connect(stretches, range, rounds[1]).ok()?, rounds })
     }
 
-    /// Where `q` is on the surface, if it is in the open.
-    pub(crate) fn place(&self, q: &[f64; 2]) -> Option<SurfacePlace> {
+    /// Where `q` is on the mesh, if it is in the open.
+    pub(crate) fn place(&self, q: &[f64; 2]) -> Option<MeshPoint> {
         let y = if self.rounds[1] { wrap_angle(q[1]) } else { q[1] };
         let turns = if self.rounds[0] { -1..=1 } else { 0..=0 };
         let first = if self.rounds[0] { wrap_angle(q[0]) } else { q[0] };
         let mut turned = turns.map(|turn| Point::new(first + TAU * f64::from(turn), y));
-        turned.find_map(|point| self.sewn.place(point))
+        turned.find_map(|point| self.connected.place(point))
     }
 }
 
 /// Stretches of the first joint (rad) in which the first link touches nothing, and whether one goes all round.
-fn open_stretches(scene: TwoLinkScene<'_>, slices: &Slices<'_>, walls: Walls) -> Vec<([f64; 2], bool)> {
+fn open_stretches(
+    scene: TwoLinkScene<'_>,
+    slices: &Slices<'_>,
+    approximation: Approximation,
+) -> Vec<([f64; 2], bool)> {
     let limits = scene.arm().joints()[0].limits;
     let [low, high] = match limits {
         JointLimits::Continuous => [-PI, PI],
@@ -98,7 +103,11 @@ fn open_stretches(scene: TwoLinkScene<'_>, slices: &Slices<'_>, walls: Walls) ->
     let mut from = low;
     let mut open: Vec<[f64; 2]> = Vec::new();
     for [start, end] in slices.first_joint([low, high]) {
-        let shift = if walls.inside { walls.distance.min((end - start) / 4.0) } else { -walls.distance };
+        let shift = if approximation.is_inner {
+            approximation.distance.min((end - start) / 4.0)
+        } else {
+            -approximation.distance
+        };
         // At the ends of the range the stop is the wall, or the obstacle goes on beyond.
         let start = if start <= low { low } else { start + shift };
         let end = if end >= high { high } else { end - shift };

@@ -1,9 +1,9 @@
-//! Shortest paths on surfaces against a visibility graph, on maps of squares: plain and wrapped round.
+//! Shortest paths on meshes against a visibility graph, on maps of squares: plain and wrapped round.
 
-#![expect(clippy::unwrap_used, reason = "a map of squares that makes no surface may panic")]
+#![expect(clippy::unwrap_used, reason = "a map of squares that makes no mesh may panic")]
 
 use elbowroom::geometry::{Point, Vector};
-use elbowroom::surface::{Across, Measure, Side, Surface, SurfaceError, SurfacePlace, taut_path};
+use elbowroom::mesh::{Across, Measure, MeshError, MeshPoint, NavigationMesh, Side, geodesic};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -74,8 +74,8 @@ impl Squares {
         Some((cell, point))
     }
 
-    /// The surface of the free squares and the cell number of each.
-    fn surface(&self, wraps: bool) -> (Surface, Vec<usize>) {
+    /// The mesh of the free squares and the cell number of each.
+    fn mesh(&self, wraps: bool) -> (NavigationMesh, Vec<usize>) {
         let cells = self.cells();
         let mut number = vec![usize::MAX; self.blocked.len()];
         for (i, &cell) in cells.iter().enumerate() {
@@ -103,7 +103,7 @@ impl Squares {
             };
             (0..4).map(side).collect()
         });
-        (Surface::new(&sides.collect::<Vec<Vec<Side>>>()).unwrap(), number)
+        (NavigationMesh::new(&sides.collect::<Vec<Vec<Side>>>()).unwrap(), number)
     }
 }
 
@@ -210,11 +210,11 @@ fn plain_maps_agree_with_the_visibility_graph() {
         let (Some(start), Some(goal)) = (squares.place(&mut rng, snap), squares.place(&mut rng, snap)) else {
             continue;
         };
-        let (surface, number) = squares.surface(false);
-        let place = |(cell, point): (usize, Point)| SurfacePlace { cell: number[cell], point };
+        let (mesh, number) = squares.mesh(false);
+        let place = |(cell, point): (usize, Point)| MeshPoint { cell: number[cell], point };
         for measure in measures() {
             let images = if seed % 2 == 0 { vec![goal.1] } else { Vec::new() };
-            let path = taut_path(&surface, &[place(start)], &[place(goal)], measure, &images, &|| true);
+            let path = geodesic(&mesh, &[place(start)], &[place(goal)], measure, &images, &|| true);
             // At a corner where only two cells touch a place belongs to the cell it was drawn in.
             let judged = by_visibility(&squares, start.1, &[goal.1], measure);
             if snap && path.is_none() {
@@ -229,8 +229,7 @@ fn plain_maps_agree_with_the_visibility_graph() {
                 assert_eq!((points[0], points[points.len() - 1]), (start.1, goal.1));
                 for pair in path.places.windows(2) {
                     assert!(
-                        surface.holds(pair[0].cell, pair[0].point)
-                            && surface.holds(pair[0].cell, pair[1].point)
+                        mesh.holds(pair[0].cell, pair[0].point) && mesh.holds(pair[0].cell, pair[1].point)
                     );
                 }
             }
@@ -248,8 +247,8 @@ fn maps_that_wrap_round_agree_with_their_copies_side_by_side() {
         else {
             continue;
         };
-        let (surface, number) = squares.surface(true);
-        let place = |(cell, point): (usize, Point)| SurfacePlace { cell: number[cell], point };
+        let (mesh, number) = squares.mesh(true);
+        let place = |(cell, point): (usize, Point)| MeshPoint { cell: number[cell], point };
         let images: Vec<Point> = (-1..=1)
             .flat_map(|i| (-1..=1).map(move |j| Vector::new(f64::from(4 * i), f64::from(4 * j))))
             .map(|shift| goal.1 + shift)
@@ -259,7 +258,7 @@ fn maps_that_wrap_round_agree_with_their_copies_side_by_side() {
         let goals: Vec<Point> =
             (0..25).map(|i| goal.1 + Vector::new((i % 5 * 4) as f64, (i / 5 * 4) as f64)).collect();
         for measure in measures() {
-            let path = taut_path(&surface, &[place(start)], &[place(goal)], measure, &images, &|| true);
+            let path = geodesic(&mesh, &[place(start)], &[place(goal)], measure, &images, &|| true);
             let judged = by_visibility(&copies, start.1 + middle, &goals, measure);
             let Some(path) = path else {
                 assert_eq!(judged, None, "seed {seed}");
@@ -296,14 +295,14 @@ fn what_is_no_surface_is_refused() {
         sides
     };
     let to = |cell, side| Some(Across { cell, side, shift: Vector::default() });
-    assert_eq!(Surface::new(&[square(to(7, 3))]), Err(SurfaceError::Seam { cell: 0, side: 1 }));
-    assert_eq!(Surface::new(&[square(to(0, 1))]), Err(SurfaceError::Seam { cell: 0, side: 1 }));
+    assert_eq!(NavigationMesh::new(&[square(to(7, 3))]), Err(MeshError::Seam { cell: 0, side: 1 }));
+    assert_eq!(NavigationMesh::new(&[square(to(0, 1))]), Err(MeshError::Seam { cell: 0, side: 1 }));
     let clockwise: Vec<Side> = square(None).into_iter().rev().collect();
-    assert_eq!(Surface::new(&[clockwise]), Err(SurfaceError::Shape { cell: 0 }));
+    assert_eq!(NavigationMesh::new(&[clockwise]), Err(MeshError::Shape { cell: 0 }));
     let mut dart = square(None);
     dart[2].from = Point::new(0.2, 0.2);
-    assert_eq!(Surface::new(&[dart]), Err(SurfaceError::Shape { cell: 0 }));
+    assert_eq!(NavigationMesh::new(&[dart]), Err(MeshError::Shape { cell: 0 }));
     let nan = vec![Side { from: Point::new(f64::NAN, 0.0), across: None }; 3];
-    assert_eq!(Surface::new(&[nan]), Err(SurfaceError::Shape { cell: 0 }));
-    assert!(Surface::new(&[]).unwrap().is_empty());
+    assert_eq!(NavigationMesh::new(&[nan]), Err(MeshError::Shape { cell: 0 }));
+    assert!(NavigationMesh::new(&[]).unwrap().is_empty());
 }
