@@ -199,12 +199,8 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
         PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => not_found(py, &message, None),
         PlanError::Stopped => timed_out(py, timeout),
-        PlanError::BelowBound { .. }
-        | PlanError::GoalNode(_)
-        | PlanError::Motion(_)
-        | PlanError::Failed { .. }
-        | PlanError::Mismatch { .. }
-        | PlanError::Refused { .. } => internal(py, &message),
+        // A planner of ours was wrong, numbers overflow, or a node is none.
+        _ => internal(py, &message),
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use elbowroom::scene::{Location, Problem, parse};
+use elbowroom::scene::{Location, ParseProblem, parse};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
@@ -45,15 +45,15 @@ fn examples() -> std::io::Result<Vec<String>> {
 #[test]
 fn bombs_are_refused_before_they_go_off() {
     let huge = format!("{SOUND}#{}", "x".repeat(4 << 20));
-    assert!(matches!(parse(&huge, "s").unwrap_err().problem, Problem::TooLarge { .. }));
+    assert!(matches!(parse(&huge, "s").unwrap_err().problem, ParseProblem::TooLarge { .. }));
     let mut aliases = "a: &a [x, x, x, x, x, x, x, x, x]\n".to_owned();
     for i in 1..30 {
         writeln!(aliases, "b{i}: &b{i} [*a, *a, *a, *a, *a, *a, *a, *a]").unwrap();
     }
-    assert_eq!(parse(&aliases, "s").unwrap_err().problem, Problem::NotPlain);
+    assert_eq!(parse(&aliases, "s").unwrap_err().problem, ParseProblem::NotPlain);
     for level in ["[", "{", "{a: ", "- ", "? ", "a: {"] {
         let error = parse(&level.repeat(100_000), "s").unwrap_err();
-        assert!(matches!(error.problem, Problem::TooMany { most: 16, .. }), "{level}: {error}");
+        assert!(matches!(error.problem, ParseProblem::TooMany { most: 16, .. }), "{level}: {error}");
     }
     let many = format!("{SOUND}#").replace(
         "  - polygon",
@@ -66,7 +66,7 @@ fn bombs_are_refused_before_they_go_off() {
         "s.yaml:16:3: tasks: 1001 tasks, at most 1000 are allowed"
     );
     let many = format!("obstacles: [{}]", "1,".repeat(2_000_000));
-    assert!(matches!(parse(&many, "s").unwrap_err().problem, Problem::TooMany { .. }));
+    assert!(matches!(parse(&many, "s").unwrap_err().problem, ParseProblem::TooMany { .. }));
 }
 
 /// Two obstacles may share nothing, whatever their names hold: the message stays on its line.
@@ -136,7 +136,7 @@ fn damaged_files_never_do_worse_than_be_refused() {
                     Some(Location { line, column }) => {
                         assert!((1..=lines).contains(&line) && column >= 1, "{error} of {lines} lines");
                     }
-                    None => assert_eq!(error.problem, Problem::Empty, "{error}"),
+                    None => assert_eq!(error.problem, ParseProblem::Empty, "{error}"),
                 }
             }
         }

@@ -3,7 +3,7 @@
 //! That both know the same keys is tested beside the parser's own table of keys; here are the values.
 
 use elbowroom::geometry::MAX_VERTICES;
-use elbowroom::scene::{Problem, parse};
+use elbowroom::scene::{ParseProblem, parse};
 use serde_json::Value;
 
 const SOUND: &str = "\
@@ -27,7 +27,7 @@ fn schema() -> Result<Value, Box<dyn std::error::Error>> {
 }
 
 /// What is wrong with `SOUND` once `old` is `new`.
-fn problem(old: &str, new: &str) -> Option<Problem> {
+fn problem(old: &str, new: &str) -> Option<ParseProblem> {
     assert!(SOUND.contains(old), "{old}");
     parse(&SOUND.replacen(old, new, 1), "s.yaml").err().map(|error| error.problem)
 }
@@ -45,11 +45,11 @@ fn it_lists_the_very_words_the_parser_takes() {
         for word in &words {
             assert_eq!(problem(written, &format!("{key}: {word}")), None, "{key}: {word}");
         }
-        let expected = Problem::Shape { found: "nonsense".to_owned(), allowed: words.join(", ") };
+        let expected = ParseProblem::Shape { found: "nonsense".to_owned(), allowed: words.join(", ") };
         assert_eq!(problem(written, &format!("{key}: nonsense")), Some(expected));
     }
     assert_eq!(schema["properties"]["elbowroom"]["const"], 1);
-    assert!(matches!(problem("elbowroom: 1", "elbowroom: 2"), Some(Problem::Version { read: "1", .. })));
+    assert!(matches!(problem("elbowroom: 1", "elbowroom: 2"), Some(ParseProblem::Version { read: "1", .. })));
     assert_eq!(schema.pointer("/$defs/joint/properties/continuous/const"), Some(&Value::Bool(true)));
     assert!(problem("continuous: true", "continuous: false").is_some());
 }
@@ -105,7 +105,7 @@ fn it_counts_as_the_parser_does() {
     assert!(problem(point, "polygon: [[0, 0], [1, 0]]").is_some());
     let shapes = schema.pointer("/$defs/obstacle/oneOf").unwrap().as_array().unwrap();
     let shapes: Vec<&str> = shapes.iter().map(|shape| shape["required"][0].as_str().unwrap()).collect();
-    let Some(Problem::OneShape { known, found: "none" }) = problem(point, "name: none") else {
+    let Some(ParseProblem::OneShape { known, found: "none" }) = problem(point, "name: none") else {
         panic!("no shape at all")
     };
     assert_eq!(shapes, known);

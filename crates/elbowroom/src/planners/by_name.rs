@@ -36,6 +36,7 @@ fn set(planner: &mut dyn Planner, option: &str, value: &OptionValue) -> Result<(
 
 /// Why a planner's name and options name none.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum NameError {
     /// There is no such planner.
     #[error("no planner is called '{}'; known: {}", name.escape_debug(), known.join(", "))]

@@ -83,10 +83,14 @@ impl Planner for CbpsoPlanner {
         monitor.stage(Stage::JointPath);
         let choice = EndpointChoice::new(scene.arm(), ends);
         let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
-        let shape =
-            Shape { choice: &choice, vias: self.vias, limits: path_objective.limits(), pace: settings.pace };
+        let encoding = MotionEncoding {
+            choice: &choice,
+            vias: self.vias,
+            limits: path_objective.limits(),
+            pace: settings.pace,
+        };
         let mut incumbent = Incumbent::new(self.evaluations, *monitor);
-        let bounds = choice.bounds(self.vias, &shape.rates()).map_err(|error| bad(error.to_string()))?;
+        let bounds = choice.bounds(self.vias, &encoding.rates()).map_err(|error| bad(error.to_string()))?;
         let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
         let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
@@ -94,14 +98,14 @@ impl Planner for CbpsoPlanner {
             let first: Vec<Vec<f64>> =
                 around_straight(&choice, self.vias, cultural.swarm.particles / 2, &mut rng)
                     .into_iter()
-                    .map(|position| shape.with_even_rates(&position))
+                    .map(|position| encoding.with_even_rates(&position))
                     .collect();
             let mut swarm = CulturalSwarm::<Fitness>::starting_at(&bounds, &cultural, &first, rng.next_u64())
                 .map_err(|error| bad(error.to_string()))?;
             let mut stagnation = Stagnation::new();
             while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
                 swarm.step(&mut |x: &[f64]| {
-                    let Some(motion) = shape.motion(x) else {
+                    let Some(motion) = encoding.motion(x) else {
                         return incumbent.evaluate(|| f64::MAX, || 0.0, || None);
                     };
                     let looks = motion.instants(LOOKS);
@@ -119,14 +123,14 @@ impl Planner for CbpsoPlanner {
 }
 
 /// What a particle's coordinates stand for: via configurations, velocities there, durations, and the choice of ends.
-struct Shape<'a> {
+struct MotionEncoding<'a> {
     choice: &'a EndpointChoice,
     vias: usize,
     limits: &'a [SpeedLimits],
     pace: Pace,
 }
 
-impl Shape<'_> {
+impl MotionEncoding<'_> {
     /// Ranges of velocities and durations.
     fn rates(&self) -> Vec<[f64; 2]> {
         let velocities = (0..self.vias).flat_map(|_| self.limits.iter());

@@ -19,6 +19,7 @@ pub(crate) fn standing_still(obstacle: usize, name: Option<&str>) -> String {
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// An obstacle of the scene moves.
     #[error("{}", standing_still(*obstacle, name.as_deref()))]

@@ -1,5 +1,6 @@
 /// A part of the work, in the order of the data flow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Stage {
     /// What no motion can cost less than.
     Bound,

@@ -4,6 +4,7 @@ use crate::trajectory::Motion;
 
 /// What a motion shall cost little of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Objective {
     /// Length of the tip's way (m).
     #[default]

@@ -8,7 +8,7 @@ mod problem;
 mod task;
 mod two_link;
 
-pub use file::{Location, Locations, Problem, SceneError, SceneFile, parse};
+pub use file::{Location, Locations, ParseProblem, SceneError, SceneFile, parse};
 pub use model::Scene;
 pub use motion::{Course, MOST_WAYPOINTS, ObstacleMotion, ObstacleMotionError, Sight, Waypoint};
 pub use obstacle::Obstacle;

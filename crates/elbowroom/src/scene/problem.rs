@@ -19,6 +19,7 @@ pub(super) const GREATEST_ANGLE: f64 = 1e4;
 
 /// Why parts make no scene.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SceneProblem {
     /// More obstacles than can be numbered.
     #[error("{found} obstacles, at most {MOST_OBSTACLES} are allowed")]

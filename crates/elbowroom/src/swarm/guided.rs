@@ -167,7 +167,7 @@ struct Walk<'a> {
     inertia: f64,
 }
 
-struct Candidate {
+struct DrawnPath {
     nodes: Vec<usize>,
     cost: f64,
     dead_points: usize,
@@ -188,13 +188,13 @@ impl Walk<'_> {
         start: usize,
         views: &mut Views<'_, '_, G>,
         rng: &mut ChaCha8Rng,
-    ) -> Option<Candidate> {
+    ) -> Option<DrawnPath> {
         let mut trail = vec![Footprint { spot: views.begin(start), velocity: 0.0, cost: 0.0 }];
         let mut dead_points = 0;
         while let Some(&here) = trail.last() {
             if views.is_goal(here.spot) {
                 let nodes = trail.iter().map(|footprint| views.node(footprint.spot)).collect();
-                return Some(Candidate { nodes, cost: here.cost, dead_points });
+                return Some(DrawnPath { nodes, cost: here.cost, dead_points });
             }
             match self.step(&here, views.unvisited(here.spot), rng) {
                 Some(next) => {

@@ -1,4 +1,4 @@
-use super::error::Problem;
+use super::error::ParseProblem;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
@@ -19,10 +19,10 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
     let joints_value = map.required("joints")?;
     let joints = joints_value.list("a list of joints")?;
     if !(2..=MOST_LINKS).contains(&lengths.len()) {
-        return Err(links_value.fault(Problem::Links { found: lengths.len() }));
+        return Err(links_value.fault(ParseProblem::Links { found: lengths.len() }));
     }
     if joints.len() != lengths.len() {
-        return Err(joints_value.fault(Problem::Joints { found: joints.len(), links: lengths.len() }));
+        return Err(joints_value.fault(ParseProblem::Joints { found: joints.len(), links: lengths.len() }));
     }
     let joints = joints.iter().map(|value| joint(value, units)).collect::<Result<Vec<Joint>, Fault>>()?;
     let half_width = match map.optional("half_width") {
@@ -58,13 +58,13 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
         }
         (Some(_), ..) => {
             let (found, allowed) = ("continuous beside min or max".to_owned(), "one or the other".to_owned());
-            return Err(value.fault(Problem::Shape { found, allowed }));
+            return Err(value.fault(ParseProblem::Shape { found, allowed }));
         }
         (None, Some(min), Some(max)) => stops(value, &min, &max, units)?,
-        (None, Some(_), None) => return Err(value.fault(Problem::MissingKey { key: "max" })),
-        (None, None, Some(_)) => return Err(value.fault(Problem::MissingKey { key: "min" })),
+        (None, Some(_), None) => return Err(value.fault(ParseProblem::MissingKey { key: "max" })),
+        (None, None, Some(_)) => return Err(value.fault(ParseProblem::MissingKey { key: "min" })),
         (None, None, None) => {
-            return Err(value.fault(Problem::MissingKey { key: "continuous: true, or min and max" }));
+            return Err(value.fault(ParseProblem::MissingKey { key: "continuous: true, or min and max" }));
         }
     };
     let motion = MotionLimits {
@@ -79,7 +79,9 @@ fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> R
     let (low, high) = (min.number()?, max.number()?);
     let (min_angle, max_angle) = (units.angle(low), units.angle(high));
     JointLimits::range(min_angle, max_angle).map_err(|error| match error {
-        JointLimitsError::Reversed { .. } => joint.fault(Problem::LimitsReversed { min: low, max: high }),
+        JointLimitsError::Reversed { .. } => {
+            joint.fault(ParseProblem::LimitsReversed { min: low, max: high })
+        }
         JointLimitsError::OutsideRange { .. } => {
             let far = if JointLimits::range(min_angle, min_angle).is_err() { min } else { max };
             far.out_of_range("within a thousand turns of 0")

@@ -18,7 +18,7 @@ pub struct SceneError {
     /// The path to the part, such as `arm.joints[1].min`; empty for the whole.
     pub key: String,
     /// What is wrong.
-    pub problem: Problem,
+    pub problem: ParseProblem,
 }
 
 impl std::error::Error for SceneError {}
@@ -38,7 +38,7 @@ impl fmt::Display for SceneError {
 
 /// What is wrong with a part of a scene file.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Problem {
+pub enum ParseProblem {
     /// No YAML.
     #[error("not YAML: {message}")]
     Syntax {

@@ -16,7 +16,7 @@ mod tree;
 mod units;
 mod value;
 
-pub use error::{Problem, SceneError};
+pub use error::{ParseProblem, SceneError};
 pub use location::{Location, Locations};
 
 use super::Scene;
@@ -62,7 +62,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
     if let Some(version) = root.peek("elbowroom") {
         version
             .word(&[VERSION])
-            .map_err(|_| version.fault(Problem::Version { found: version.in_words(), read: VERSION }))?;
+            .map_err(|_| version.fault(ParseProblem::Version { found: version.in_words(), read: VERSION }))?;
     }
     let map = root.map(&keys::ROOT)?;
     let units = units(&map.required("units")?)?;

@@ -1,4 +1,4 @@
-use super::error::Problem;
+use super::error::ParseProblem;
 use super::keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
@@ -18,7 +18,7 @@ pub(super) fn read(map: &Map<'_>, units: Units) -> Result<Option<ObstacleMotion>
     let course = course(&motion, units)?;
     let declared = speed.as_ref().map(|speed| speed.length(units)).transpose()?;
     if matches!(course, Course::Chase { .. }) && declared.is_none() {
-        return Err(motion.fault(Problem::MissingKey { key: "greatest_speed, beside chases" }));
+        return Err(motion.fault(ParseProblem::MissingKey { key: "greatest_speed, beside chases" }));
     }
     ObstacleMotion::new(course, sight(map, units)?, declared).map(Some).map_err(|error| {
         match (error, speed) {
@@ -70,7 +70,7 @@ fn sight(map: &Map<'_>, units: Units) -> Result<Sight, Fault> {
         (false, None, None) => {
             let key = "seen_from or sensing_radius, beside seen: false";
             match map.optional("seen") {
-                Some(seen) => Err(seen.fault(Problem::MissingKey { key })),
+                Some(seen) => Err(seen.fault(ParseProblem::MissingKey { key })),
                 None => Ok(Sight::Always),
             }
         }

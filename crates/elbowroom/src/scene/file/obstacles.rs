@@ -1,6 +1,6 @@
 use std::collections::HashSet;
 
-use super::error::Problem;
+use super::error::ParseProblem;
 use super::keys;
 use super::motion;
 use super::units::Units;
@@ -45,8 +45,8 @@ fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>
     Ok(Obstacle { name, shape, motion: motion::read(&map, units)? })
 }
 
-fn one_shape(found: &'static str) -> Problem {
-    Problem::OneShape { known: SHAPES.iter().map(|(key, _)| *key).collect(), found }
+fn one_shape(found: &'static str) -> ParseProblem {
+    ParseProblem::OneShape { known: SHAPES.iter().map(|(key, _)| *key).collect(), found }
 }
 
 fn circle(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
@@ -80,7 +80,7 @@ fn polygon(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
     let neighbours = (1..count).map(|i| (i - 1, i)).chain([(0, count.saturating_sub(1))]);
     let repeated = neighbours.filter(|_| count >= 3).find(|&(i, j)| corners[i] == corners[j]);
     if let Some((first, second)) = repeated {
-        return Err(values[second].fault(Problem::CornerTwice { first, second }));
+        return Err(values[second].fault(ParseProblem::CornerTwice { first, second }));
     }
     Shape::polygon(corners).map_err(|error| match error {
         ShapeError::NotFinite { vertex: i } | ShapeError::EdgesMeet { first: i, .. } => {

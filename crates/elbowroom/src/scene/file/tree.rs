@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError};
 
 use super::Location;
-use super::error::Problem;
+use super::error::ParseProblem;
 use super::node::{Entry, Kind, Node};
 use super::value::{Fault, child};
 
@@ -16,12 +16,13 @@ const MOST_VALUES: usize = 1 << 20;
 /// Most lists and mappings in one another; the format needs six.
 const MOST_DEPTH: usize = 16;
 
-const TOO_DEEP: Problem = Problem::TooMany { what: "lists and mappings in one another", most: MOST_DEPTH };
+const TOO_DEEP: ParseProblem =
+    ParseProblem::TooMany { what: "lists and mappings in one another", most: MOST_DEPTH };
 
 /// The one document of `text` as a tree of marked nodes.
 pub(super) fn tree(text: &str) -> Result<Node, Fault> {
     if text.len() > MOST_BYTES {
-        return Err(whole(Problem::TooLarge { bytes: text.len(), most: MOST_BYTES }));
+        return Err(whole(ParseProblem::TooLarge { bytes: text.len(), most: MOST_BYTES }));
     }
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut builder = Builder::default();
@@ -31,14 +32,14 @@ pub(super) fn tree(text: &str) -> Result<Node, Fault> {
     }
     match builder.document {
         Some(Node { kind: Kind::Scalar { ref text, quoted: false }, .. }) if text.is_empty() => {
-            Err(whole(Problem::Empty))
+            Err(whole(ParseProblem::Empty))
         }
         Some(root) => Ok(root),
-        None => Err(whole(Problem::Empty)),
+        None => Err(whole(ParseProblem::Empty)),
     }
 }
 
-fn whole(problem: Problem) -> Fault {
+fn whole(problem: ParseProblem) -> Fault {
     Fault { at: None, key: String::new(), problem }
 }
 
@@ -46,8 +47,8 @@ fn syntax(error: &ScanError) -> Fault {
     let problem = match error.info() {
         // The parser looks some way ahead and meets these before the builder does.
         "recursion limit exceeded" => TOO_DEEP,
-        "while parsing node, found unknown anchor" => Problem::NotPlain,
-        message => Problem::Syntax { message: message.to_owned() },
+        "while parsing node, found unknown anchor" => ParseProblem::NotPlain,
+        message => ParseProblem::Syntax { message: message.to_owned() },
     };
     Fault { at: Some(location(error.marker())), key: String::new(), problem }
 }
@@ -83,14 +84,16 @@ impl Builder {
         let fault = |problem| Err(Fault { at: Some(at), key: self.path(), problem });
         match event {
             Event::Nothing | Event::StreamStart | Event::StreamEnd | Event::DocumentEnd => Ok(()),
-            Event::DocumentStart(_) if self.document.is_some() => fault(Problem::SecondDocument),
+            Event::DocumentStart(_) if self.document.is_some() => fault(ParseProblem::SecondDocument),
             Event::DocumentStart(_) => Ok(()),
-            Event::Alias(_) => fault(Problem::NotPlain),
-            Event::Scalar(_, _, anchor, ref tag) if anchor != 0 || tag.is_some() => fault(Problem::NotPlain),
+            Event::Alias(_) => fault(ParseProblem::NotPlain),
+            Event::Scalar(_, _, anchor, ref tag) if anchor != 0 || tag.is_some() => {
+                fault(ParseProblem::NotPlain)
+            }
             Event::SequenceStart(anchor, ref tag) | Event::MappingStart(anchor, ref tag)
                 if anchor != 0 || tag.is_some() =>
             {
-                fault(Problem::NotPlain)
+                fault(ParseProblem::NotPlain)
             }
             Event::Scalar(text, style, ..) => {
                 let kind =
@@ -122,7 +125,7 @@ impl Builder {
         let at = node.at;
         self.values += 1;
         if self.values > MOST_VALUES {
-            let problem = Problem::TooMany { what: "values", most: MOST_VALUES };
+            let problem = ParseProblem::TooMany { what: "values", most: MOST_VALUES };
             return Err(Fault { at: Some(at), key: self.path(), problem });
         }
         match self.open.last_mut() {
@@ -153,13 +156,16 @@ impl Builder {
 }
 
 /// The text of a key that its mapping has not `seen`; otherwise what is wrong, with the text where there is one.
-fn new_key(node: Node, seen: &mut HashMap<String, Location>) -> Result<String, (Option<String>, Problem)> {
+fn new_key(
+    node: Node,
+    seen: &mut HashMap<String, Location>,
+) -> Result<String, (Option<String>, ParseProblem)> {
     match node.kind {
         Kind::Scalar { text, .. } => match seen.insert(text.clone(), node.at) {
             None => Ok(text),
-            Some(first) => Err((Some(text), Problem::DuplicateKey { first })),
+            Some(first) => Err((Some(text), ParseProblem::DuplicateKey { first })),
         },
-        Kind::List(_) => Err((None, Problem::KeyShape { found: "a list" })),
-        Kind::Map(_) => Err((None, Problem::KeyShape { found: "a mapping" })),
+        Kind::List(_) => Err((None, ParseProblem::KeyShape { found: "a list" })),
+        Kind::Map(_) => Err((None, ParseProblem::KeyShape { found: "a mapping" })),
     }
 }

@@ -1,5 +1,5 @@
 use super::Location;
-use super::error::{Problem, SceneError};
+use super::error::{ParseProblem, SceneError};
 use super::keys::Keys;
 use super::node::{Entry, Kind, Node, shortened};
 use super::units::Units;
@@ -13,7 +13,7 @@ const GREATEST_LENGTH: f64 = 1e6;
 pub(super) struct Fault {
     pub(super) at: Option<Location>,
     pub(super) key: String,
-    pub(super) problem: Problem,
+    pub(super) problem: ParseProblem,
 }
 
 impl Fault {
@@ -49,7 +49,7 @@ impl<'a> Value<'a> {
         self.node.at
     }
 
-    pub(super) fn fault(&self, problem: Problem) -> Fault {
+    pub(super) fn fault(&self, problem: ParseProblem) -> Fault {
         Fault { at: Some(self.node.at), key: self.key.clone(), problem }
     }
 
@@ -58,11 +58,11 @@ impl<'a> Value<'a> {
     }
 
     pub(super) fn shape(&self, allowed: impl Into<String>) -> Fault {
-        self.fault(Problem::Shape { found: self.node.in_words(), allowed: allowed.into() })
+        self.fault(ParseProblem::Shape { found: self.node.in_words(), allowed: allowed.into() })
     }
 
     pub(super) fn out_of_range(&self, allowed: &'static str) -> Fault {
-        self.fault(Problem::OutOfRange { found: self.node.in_words(), allowed })
+        self.fault(ParseProblem::OutOfRange { found: self.node.in_words(), allowed })
     }
 
     /// The value of `key`, if this is a mapping that has it, sound or not.
@@ -78,12 +78,12 @@ impl<'a> Value<'a> {
         for entry in entries {
             if !keys.known().any(|known| known == entry.key) {
                 let suggestion = nearest(&entry.key, keys.known());
-                let problem = Problem::UnknownKey { known: keys.known().collect(), suggestion };
+                let problem = ParseProblem::UnknownKey { known: keys.known().collect(), suggestion };
                 return Err(Fault { at: Some(entry.key_at), key: child(&self.key, &entry.key), problem });
             }
         }
         match keys.required.iter().find(|key| entries.iter().all(|entry| entry.key != **key)) {
-            Some(key) => Err(self.fault(Problem::MissingKey { key })),
+            Some(key) => Err(self.fault(ParseProblem::MissingKey { key })),
             None => Ok(Map { value: self, entries }),
         }
     }
@@ -93,7 +93,7 @@ impl<'a> Value<'a> {
         let entries = self.entries(|| "a mapping of names".to_owned())?;
         if let Some(unnamed) = entries.iter().find(|entry| entry.key.is_empty()) {
             let (found, allowed) = ("an empty name".to_owned(), "a name".to_owned());
-            let problem = Problem::Shape { found, allowed };
+            let problem = ParseProblem::Shape { found, allowed };
             return Err(Fault { at: Some(unnamed.key_at), key: self.key.clone(), problem });
         }
         let value = |entry: &'a Entry| Value { node: &entry.value, key: child(&self.key, &entry.key) };
@@ -146,7 +146,7 @@ impl<'a> Value<'a> {
             Kind::Scalar { text, quoted: false } => text,
             _ => return Err(self.shape("a number")),
         };
-        let not_finite = || self.fault(Problem::NotFinite { found: self.node.in_words() });
+        let not_finite = || self.fault(ParseProblem::NotFinite { found: self.node.in_words() });
         if matches!(
             text.trim_start_matches(['+', '-']).to_ascii_lowercase().as_str(),
             ".inf" | ".nan" | "inf" | "nan"
@@ -185,7 +185,7 @@ impl<'a> Map<'a> {
     }
 
     pub(super) fn required(&self, key: &'static str) -> Result<Value<'a>, Fault> {
-        self.optional(key).ok_or_else(|| self.value.fault(Problem::MissingKey { key }))
+        self.optional(key).ok_or_else(|| self.value.fault(ParseProblem::MissingKey { key }))
     }
 }
 
