@@ -9,8 +9,8 @@ mod build;
 use build::{example, tip};
 use elbowroom::arm::{Joint, MotionLimits};
 use elbowroom::free_space::reason_against;
-use elbowroom::planners::{DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner, all, by_name};
-use elbowroom::planning::{Endpoints, Objective, OptionValue, Plan, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::planners::{DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner};
+use elbowroom::planning::{Endpoints, Objective, Plan, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Place, Scene, TaskPosture};
 
 fn asked(scene: &Scene, task: &str, planner: &dyn Planner, objective: Objective, seed: u64) -> Plan {
@@ -72,33 +72,44 @@ fn stops_are_the_via_points_at_which_the_arm_rests() {
 #[test]
 fn a_little_more_tip_travel_is_traded_for_what_the_arm_pays() {
     // With joint travel or time as the objective paths within 1 % of the shortest are candidates too.
-    let scene = example("paper-standin");
-    let of = |objective| asked(&scene, "first", &DstarPsoPlanner::default(), objective, 0);
-    let (tip, joint, time) = (of(Objective::Tip), of(Objective::Joint), of(Objective::Time));
-    for other in [&joint, &time] {
-        assert!(other.record().paths_to_choose_from > tip.record().paths_to_choose_from);
-        let more = other.record().path_cost / tip.record().path_cost;
-        assert!(more > 1.0 && more <= 1.0101, "{more}");
+    let of = |scene: &str, task: &str, objective: Objective| {
+        asked(&example(scene), task, &DstarPsoPlanner::default(), objective, 0)
+    };
+    for (scene, task) in [("narrow", "second"), ("paper-standin", "first"), ("paper-standin", "second")] {
+        let [tip, joint, time] = Objective::ALL.map(|objective| of(scene, task, objective));
+        for other in [&joint, &time] {
+            assert!(other.record().paths_to_choose_from > tip.record().paths_to_choose_from, "{scene}");
+        }
     }
+    let [tip, joint, _] = Objective::ALL.map(|objective| of("abb-irb-910sc-065", "place", objective));
+    let more = joint.record().path_cost / tip.record().path_cost;
+    assert!(more > 1.0 && more <= 1.01 + 1e-9, "{more}");
 }
 
 #[test]
 fn paths_of_many_links_are_made_shorter() {
-    // Trees alone wander: without shortcuts these cost two to five times as much.
-    for (scene, task, objective, most) in [
-        ("three-links", "over", Objective::Joint, 0.0),
-        ("five-links", "reach", Objective::Joint, 0.0),
-        ("ten-links", "reach", Objective::Tip, 0.0),
+    // Trees alone wander: without shortcuts these cost 3.76 m, 7.41 rad and 3.83 rad.
+    for (scene, objective, most) in [
+        ("five-links", Objective::Tip, 2.2),
+        ("five-links", Objective::Joint, 6.5),
+        ("ten-links", Objective::Joint, 2.6),
     ] {
-        let plan = asked(&example(scene), task, &GuidedRrtConnectPlanner::default(), objective, 0);
+        let plan = asked(&example(scene), "withdraw", &GuidedRrtConnectPlanner::default(), objective, 0);
         assert!(plan.cost() < most, "{scene}: {}", plan.cost());
     }
 }
 
 #[test]
-fn swarms_that_stagnate_are_begun_anew() {
-    for planner in all().iter().filter(|planner| planner.budget() == Some("evaluations")) {
-        let few = by_name(planner.name(), &[("evaluations".to_owned(), OptionValue::Count(500))]).unwrap();
-        assert!(few.budget().is_some());
+fn optimal_tries_several_clearances() {
+    // With the first of its margins alone these cost 8.85 s, 6.47 s, 3.465 rad, 1.583 rad and 0.32863 m.
+    for (scene, task, objective, most) in [
+        ("narrow", "first", Objective::Time, 6.5),
+        ("narrow", "second", Objective::Time, 5.2),
+        ("paper-standin", "second", Objective::Joint, 3.457),
+        ("fanuc-sr-3ia", "shelf", Objective::Joint, 1.576),
+        ("fanuc-sr-3ia", "shelf", Objective::Tip, 0.3284),
+    ] {
+        let plan = asked(&example(scene), task, &OptimalPlanner, objective, 0);
+        assert!(plan.cost() < most, "{scene}, {task}: {}", plan.cost());
     }
 }

@@ -88,3 +88,19 @@ impl Stagnation {
         self.left > 0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_swarm_that_finds_nothing_better_is_given_up() {
+        let of = |cost: f64| Fitness { violation: 0.0, cost };
+        let mut stagnation = Stagnation::new();
+        assert!((0..Stagnation::ITERATIONS - 1).all(|_| stagnation.lasts(of(1.0))));
+        assert!(!stagnation.lasts(of(1.0)));
+        // Whatever is better gives it as many iterations again.
+        let mut stagnation = Stagnation::new();
+        assert!((0..10 * Stagnation::ITERATIONS).all(|i| stagnation.lasts(of(-(i as f64)))));
+    }
+}
