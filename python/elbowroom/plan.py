@@ -9,9 +9,10 @@ from typing import Literal
 from elbowroom import _core, plugins
 from elbowroom._core import PaperPlan, Plan
 from elbowroom.errors import BadSetting, NotFree, UnknownTask
+from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN, all_options
 from elbowroom.plan_proposed import plan_proposed
-from elbowroom.plugins import Objective, Option, PlannerPlugin
+from elbowroom.plugins import Option, PlannerPlugin
 from elbowroom.scene import Scene
 from elbowroom.whole import check_whole
 

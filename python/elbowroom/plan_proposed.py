@@ -11,7 +11,8 @@ import numpy as np
 from elbowroom import _core, plugins
 from elbowroom._core import Plan
 from elbowroom.errors import BadSetting, ElbowroomError, PlannerFault, TrajectoryError
-from elbowroom.plugins import Objective, Option, PlannerPlugin, Proposal
+from elbowroom.objectives import Objective
+from elbowroom.plugins import Option, PlannerPlugin, Proposal
 from elbowroom.scene import Scene
 
 

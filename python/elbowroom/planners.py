@@ -15,15 +15,15 @@ from typing import Any
 from elbowroom import plugins
 from elbowroom._core import Plan, __version__
 from elbowroom.errors import BadSetting
+from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN, OwnOption, all_options
 from elbowroom.plan import plan as own_plan
-from elbowroom.plugins import BrokenPlugin, Objective, Option, PlannerPlugin, Proposal
+from elbowroom.plugins import BrokenPlugin, Option, PlannerPlugin, Proposal
 from elbowroom.scene import Scene
 
 __all__ = [
     "BrokenPlugin",
     "Choice",
-    "Objective",
     "Option",
     "OwnPlanner",
     "PlannerPlugin",

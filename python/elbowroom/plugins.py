@@ -7,19 +7,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
-from typing import Any, Literal, Protocol
+from typing import Any, Protocol
 
 from numpy.typing import ArrayLike
 
 from elbowroom._core import Plan
 from elbowroom.errors import BadSetting
+from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN
 from elbowroom.scene import Scene
 
 GROUP = "elbowroom.planners"
 """The entry point group of plug-ins."""
 
-Objective = Literal["tip", "joint", "time"]
 Option = str | int | float | bool
 
 

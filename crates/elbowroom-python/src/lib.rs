@@ -38,7 +38,7 @@ mod _core {
     #[pymodule_export]
     use super::plan_kept::plan_again;
     #[pymodule_export]
-    use super::planning::{default_planner, gap, mismatch, plan, planner_options, planners_known};
+    use super::planning::{default_planner, gap, mismatch, objectives, plan, planner_options, planners_known};
     #[pymodule_export]
     use super::proposed::plan_proposed;
     #[pymodule_export]

@@ -120,6 +120,12 @@ pub(crate) fn plan(
     Plan::new(py, question, plan, watch::told(timings))
 }
 
+/// Return every objective: its name, what it is a number of, and its unit.
+#[pyfunction]
+pub(crate) fn objectives() -> Vec<(&'static str, &'static str, &'static str)> {
+    Objective::ALL.map(|objective| (objective.name(), objective.quantity(), objective.unit())).to_vec()
+}
+
 /// The objective called `name`.
 pub(crate) fn objective_called(py: Python<'_>, name: &str) -> PyResult<Objective> {
     Objective::ALL.into_iter().find(|known| known.name() == name).ok_or_else(|| {

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.objectives import LISTED
 from elbowroom.own_planners import OWN
 
 
@@ -32,7 +33,7 @@ def compare_command(
         int | None, typer.Option(min=1, help="Evaluations a run, for planners that take a number; else their own.")
     ] = None,
     timeout: Annotated[float | None, typer.Option(help="A run gives up after so many seconds.")] = None,
-    objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
+    objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
     out: Annotated[
         Path, typer.Option(help="Folder for the rows, report.md and the pictures; rows there are not run again.")
     ] = Path("out/compare"),

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.objectives import LISTED
 from elbowroom.own_planners import OWN
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def plan_command(
             "Left out: dstar-pso for two links, guided-rrt-connect for more."
         ),
     ] = None,
-    objective: Annotated[str, typer.Option(help="What shall be short: tip, joint or time.")] = "tip",
+    objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
     seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
     duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",

@@ -6,11 +6,10 @@ import math
 
 from elbowroom._core import Clearance, Plan, Verdict
 from elbowroom.numbered import numbered
+from elbowroom.objectives import OBJECTIVES
 
 MOST_STOPS = 3
 """With more joints that have stops than this, only the one nearest to a stop gets a line."""
-
-UNITS = {"tip": "m of tip travel", "joint": "rad of joint travel", "time": "s"}
 
 
 def in_words(plan: Plan) -> str:
@@ -20,7 +19,7 @@ def in_words(plan: Plan) -> str:
     lines = [
         f"{plan.planner}: task '{plan.task}' planned in {spent * 1e3:.1f} ms, best of {plan.paths_to_choose_from} "
         + ("path" if plan.paths_to_choose_from == 1 else "paths"),
-        f"cost {plan.cost:.6f} {UNITS[plan.objective]}; motion of {plan.motion.duration:.3f} s "
+        f"cost {plan.cost:.6f} {_cost_in_words(plan)}; motion of {plan.motion.duration:.3f} s "
         f"through {len(plan.vias)} via points{stops}",
     ]
     if plan.lower_bound is not None and plan.gap is not None:
@@ -31,6 +30,12 @@ def in_words(plan: Plan) -> str:
     if plan.assumed_limits:
         lines.append(f"not stated in the scene, so taken as {_assumed(plan)}")
     return "\n".join(lines)
+
+
+def _cost_in_words(plan: Plan) -> str:
+    meaning = OBJECTIVES[plan.objective]
+    # Seconds are of nothing else.
+    return meaning.unit if meaning.unit == "s" else f"{meaning.unit} of {meaning.quantity}"
 
 
 def _assumed(plan: Plan) -> str:

@@ -15,9 +15,10 @@ from elbowroom.compare.row import Problem, Row
 from elbowroom.compare.table import Table, in_order, parquet_is_there, write_parquet
 from elbowroom.compare.worker import Batch
 from elbowroom.errors import BadSetting
+from elbowroom.objectives import LISTED, OBJECTIVES, Objective
 from elbowroom.planners import Choice
 from elbowroom.planners import given as choice_of
-from elbowroom.plugins import Objective, PlannerPlugin
+from elbowroom.plugins import PlannerPlugin
 from elbowroom.scene import Scene, text_of
 from elbowroom.whole import check_whole, is_whole
 
@@ -147,8 +148,8 @@ def _check(
             refuse(f"no {name} to compare", name)
     if len(set(seeds)) != len(seeds) or not all(map(is_whole, seeds)):
         refuse("seeds are different whole numbers from 0 on", "seeds")
-    if objective not in get_args(Objective):
-        refuse(f"no objective is called '{objective}'; tip, joint or time", "objective")
+    if objective not in OBJECTIVES:
+        refuse(f"no objective is called '{objective}'; {LISTED}", "objective")
     if on not in get_args(Place):
         refuse(f"nothing to run on is called '{on}'; local or ray", "on")
     if on == "ray" and not ray_is_there():

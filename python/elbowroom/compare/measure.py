@@ -24,7 +24,7 @@ class Lengths:
 
     def by(self, objective: str) -> float:
         """Return the one that ``objective`` goes by."""
-        return {"tip": self.tip, "joint": self.joint, "time": self.time}[objective]
+        return float(getattr(self, objective))
 
 
 def lengths(scene: Scene, motion: Motion) -> Lengths:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from elbowroom.compare.straight_turns import straight_turns
 from elbowroom.errors import BadSetting, NotFound, TimedOut
-from elbowroom.plugins import Objective, Proposal
+from elbowroom.objectives import Objective
+from elbowroom.plugins import Proposal
 from elbowroom.scene import Configuration, Place, Scene
 
 try:

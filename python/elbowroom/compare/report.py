@@ -15,7 +15,6 @@ from elbowroom.compare.row import FAILURES, Row
 from elbowroom.compare.statistics import Interval
 from elbowroom.compare.summary import (
     METRICS,
-    OBJECTIVE_COLUMN,
     Cell,
     Metric,
     Overall,
@@ -26,11 +25,10 @@ from elbowroom.compare.summary import (
 )
 from elbowroom.figures import save
 from elbowroom.figures.compare import Curve, Panel, Shares, convergence, side_by_side
+from elbowroom.objectives import OBJECTIVES
 
 MOST_TASKS = 24
 """With more tasks than this each gets a line instead of a section with a picture."""
-
-CONVERGING = {"tip": "tip travel (m)", "joint": "joint travel (rad)", "time": "duration (s)"}
 
 ALWAYS = ("tip_length_m", "joint_travel_rad", "duration_s", "least_clearance_m", "time_s")
 """Columns shown even if nobody has a value; the others only if somebody has."""
@@ -74,7 +72,8 @@ def write_report(
             parts += [f"## {_cell(task.scene)}, task {_cell(task.task)}", task_table(task, rows[0].objective)]
             parts.append(picture(save(_boxes(task, words), stem.with_name(stem.name + ".png")), words))
             if curves := _curves(task):
-                figure = convergence(words, CONVERGING[rows[0].objective], curves)
+                meaning = OBJECTIVES[rows[0].objective]
+                figure = convergence(words, f"{meaning.quantity} ({meaning.unit})", curves)
                 parts.append(
                     picture(save(figure, stem.with_name(stem.name + "_convergence.png")), f"{words}: convergence")
                 )
@@ -132,7 +131,7 @@ def task_table(task: TaskSummary, objective: str) -> str:
     """Return what the planners came to on a task, a line each."""
     metrics = [m for m in METRICS if m.column in ALWAYS or any(cell.medians[m.column] for cell in task.cells)]
     header = ["planner", "success", "unsafe", *(f"{m.title} ({m.unit})" if m.unit else m.title for m in metrics)]
-    best = task.best(OBJECTIVE_COLUMN[objective])
+    best = task.best(OBJECTIVES[objective].column)
     lines = []
     for cell in task.cells:
         values = []
@@ -140,7 +139,7 @@ def task_table(task: TaskSummary, objective: str) -> str:
             interval = cell.medians[metric.column]
             shown = _interval(interval, metric)
             if (
-                metric.column == OBJECTIVE_COLUMN[objective]
+                metric.column == OBJECTIVES[objective].column
                 and interval is not None
                 and shown == _at_best(task, metric, best)
             ):
@@ -199,7 +198,7 @@ def overall_table(summary: Summary) -> str:
 
 
 def _short_table(summary: Summary, objective: str) -> str:
-    metric = next(m for m in METRICS if m.column == OBJECTIVE_COLUMN[objective])
+    metric = next(m for m in METRICS if m.column == OBJECTIVES[objective].column)
     planners = [of.planner for of in summary.overall]
     lines = []
     for task in summary.tasks:

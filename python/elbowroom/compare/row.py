@@ -13,8 +13,9 @@ from msgspec.structs import asdict, fields
 
 from elbowroom._core import __version__
 from elbowroom.errors import ElbowroomError
+from elbowroom.objectives import Objective
 from elbowroom.planners import Choice
-from elbowroom.plugins import Objective, Option
+from elbowroom.plugins import Option
 
 Failure = Literal[
     "no_path",

@@ -58,8 +58,6 @@ METRICS = (
     Metric("time_s", "time", "ms", 1000.0),
 )
 
-OBJECTIVE_COLUMN = {"tip": "tip_length_m", "joint": "joint_travel_rad", "time": "duration_s"}
-
 
 @dataclass(frozen=True)
 class Cell:

@@ -6,9 +6,9 @@ use rand_core::{Rng, SeedableRng};
 use super::swarms::{
     EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, around_straight,
 };
-use crate::arm::{Configuration, joint_distance};
+use crate::arm::Configuration;
 use crate::planning::{
-    Candidate, Found, Monitor, Objective, OptionValue, Pace, Pick, PlanError, Planner, Problem, Round, Stage,
+    Candidate, Found, Monitor, OptionValue, Pace, Pick, PlanError, Planner, Problem, Round, Stage,
 };
 use crate::scene::Scene;
 use crate::swarm::{CulturalSettings, CulturalSwarm, Fitness, SwarmSettings};
@@ -111,7 +111,7 @@ impl Planner for CbpsoPlanner {
                     let looks = motion.instants(LOOKS);
                     incumbent.evaluate(
                         || violation(&path_objective, &motion, &looks),
-                        || cost(scene, settings.objective, &motion, &looks),
+                        || settings.objective.of_looks(scene.arm(), &looks, motion.duration()),
                         || is_safe(scene, &motion, *monitor).then(|| motion.clone()),
                     )
                 });
@@ -257,17 +257,6 @@ fn violation(path_objective: &PathObjective<'_>, motion: &Motion, looks: &[Vec<f
         watch.at(&pair[1], moved) * (moved + 1e-6)
     };
     looks.windows(2).map(&mut at).sum()
-}
-
-fn cost(scene: &Scene, objective: Objective, motion: &Motion, looks: &[Vec<f64>]) -> f64 {
-    match objective {
-        Objective::Tip => {
-            let tips: Vec<_> = looks.iter().map(|q| scene.arm().tip(q)).collect();
-            tips.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
-        }
-        Objective::Joint => looks.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
-        Objective::Time => motion.duration(),
-    }
 }
 
 fn is_safe(scene: &Scene, motion: &Motion, monitor: &dyn Monitor) -> bool {

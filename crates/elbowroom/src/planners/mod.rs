@@ -26,7 +26,6 @@ pub use guided_rrt_connect::GuidedRrtConnectPlanner;
 pub use ik_pso::IkPsoPlanner;
 pub use nsc_pso::{Initialisation, NscPsoPlanner};
 pub use optimal::OptimalPlanner;
-pub use over_grid::NEARLY_EQUAL;
 pub use paper::{Method, PaperError, PaperPlan, PaperSettings, plan_as_in_paper};
 pub use pso::PsoPlanner;
 pub use tip_guided::{InverseSwarmError, InverseSwarmSettings, Previous, SwarmInverse, inverse_by_swarm};

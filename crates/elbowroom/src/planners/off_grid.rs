@@ -7,7 +7,7 @@ use crate::decomposition::{Approximation, JointSpaceCells, branch_ranges};
 use crate::geometry::Point;
 use crate::mesh::{Geodesic, Measure, MeshPoint, geodesic};
 use crate::path::{JointPath, joint_path, straight_move_is_free};
-use crate::planning::{Endpoints, Monitor, Objective, PlanError, Stage, measure_of};
+use crate::planning::{Endpoints, Monitor, Objective, PlanError, Stage};
 use crate::scene::TwoLinkScene;
 use crate::trajectory::SpeedLimits;
 use crate::verify::images;
@@ -15,8 +15,8 @@ use crate::verify::images;
 /// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
 const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 
-/// The same where time counts: wide berths have soft bends.
-const MARGINS_FOR_TIME: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
+/// The same where corners cost: wide berths have soft bends.
+const SOFT_MARGINS: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
 
 /// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
 /// to be looked for, unless a gap is asked for.
@@ -55,13 +55,9 @@ pub(crate) fn over_joints(
     monitor: &dyn Monitor,
 ) -> Result<Vec<JointPath>, PlanError> {
     let Search { distance, enough } = search;
-    let weights = match objective {
-        Objective::Tip | Objective::Joint => [1.0; 2],
-        Objective::Time => [0, 1].map(|j| 1.0 / limits[j].velocity),
-    };
-    let measure = measure_of(objective, limits);
+    let (weights, measure) = (objective.weights(limits), objective.measure(limits));
     let mut found: Vec<JointPath> = Vec::new();
-    let margins: &[f64] = if objective == Objective::Time { &MARGINS_FOR_TIME } else { &MARGINS };
+    let margins: &[f64] = if objective.minds_corners() { &SOFT_MARGINS } else { &MARGINS };
     for &margin in margins {
         monitor.stage(Stage::CostToGo);
         let Some(path) = shortest(scene, ends, measure, margin, distance, monitor)? else { continue };

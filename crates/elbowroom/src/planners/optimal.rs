@@ -3,7 +3,7 @@ use std::ops::RangeInclusive;
 use super::off_grid::{Search, over_joints, over_tips};
 use super::over_grid::{Choice, GRID_TOLERANCE, paths_over_grid};
 use crate::path::JointPath;
-use crate::planning::{Candidate, CertifiedPath, Found, Objective, Pick, PlanError, Planner, Problem, Round};
+use crate::planning::{Candidate, CertifiedPath, Found, Pick, PlanError, Planner, Problem, Round};
 use crate::scene::TwoLinkScene;
 
 /// How far a motion may stray from a taut path before the verifier is asked, in grid steps: it has no zigzag to lose.
@@ -38,46 +38,44 @@ impl Planner for OptimalPlanner {
         &DISTANCES
     }
 
-    /// Paths over the joints or, for tip travel, over the tip; for time what D* finds as well, which may have fewer corners to
-    /// slow down at.
+    /// Paths over the joints or, where that is what counts, over the tip; where corners cost what D* finds as well, which may have
+    /// fewer of them.
     fn search(&self, problem: &Problem<'_>, round: Round) -> Result<Found, PlanError> {
         let scene = problem.two_link(self.name())?;
         let (objective, limits) = (problem.settings.objective, &problem.limits);
         // Whoever asks for a gap wants the best of several.
-        let near = match (objective, problem.settings.gap) {
-            (Objective::Joint, None) => round.lower_bound,
+        let near = match problem.settings.gap {
+            None if !objective.is_in_workspace() && !objective.minds_corners() => round.lower_bound,
             _ => None,
         };
         let search = Search::new(round.distance / WALLS_DEEPER, near);
         let over_joints =
             || over_joints(scene, &problem.endpoints, objective, limits, search, problem.monitor);
         let taut = |path| candidate(scene, path, TAUT_TOLERANCE);
-        let candidates = match objective {
-            Objective::Joint => over_joints()?.into_iter().map(taut).collect(),
-            Objective::Time => {
-                let mut candidates = self.on_grid(problem)?.candidates;
-                match over_joints() {
-                    // Corners cost time: they are kept to closely, and loosely.
-                    Ok(more) => candidates.extend(
-                        more.into_iter()
-                            .flat_map(|path| [candidate(scene, path.clone(), GRID_TOLERANCE), taut(path)]),
-                    ),
-                    Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
-                    Err(other) => return Err(other),
-                }
-                candidates
+        let candidates = if objective.is_in_workspace() {
+            let mut rough: Vec<JointPath> = paths(self.on_grid(problem)?.candidates);
+            if rough.is_empty() {
+                rough = over_joints()?;
             }
-            Objective::Tip => {
-                let mut rough: Vec<JointPath> = paths(self.on_grid(problem)?.candidates);
-                if rough.is_empty() {
-                    rough = over_joints()?;
-                }
-                let mut candidates = Vec::new();
-                for path in &rough {
-                    candidates.extend(over_tips(scene, path, problem.monitor)?.into_iter().map(taut));
-                }
-                candidates
+            let mut candidates = Vec::new();
+            for path in &rough {
+                candidates.extend(over_tips(scene, path, problem.monitor)?.into_iter().map(taut));
             }
+            candidates
+        } else if objective.minds_corners() {
+            let mut candidates = self.on_grid(problem)?.candidates;
+            match over_joints() {
+                // The corners are kept to closely, and loosely.
+                Ok(more) => candidates.extend(
+                    more.into_iter()
+                        .flat_map(|path| [candidate(scene, path.clone(), GRID_TOLERANCE), taut(path)]),
+                ),
+                Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
+                Err(other) => return Err(other),
+            }
+            candidates
+        } else {
+            over_joints()?.into_iter().map(taut).collect()
         };
         Ok(Found::new(candidates, Pick::Best))
     }

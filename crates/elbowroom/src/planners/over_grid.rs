@@ -12,9 +12,6 @@ use crate::roadmap::PostureGraph;
 use crate::search::{Dstar, Graph, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
 
-/// By how much a tip path may be longer than the shortest and still be chosen for what the arm pays, as a share.
-pub const NEARLY_EQUAL: f64 = 0.01;
-
 /// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
 const SHORTLIST: usize = 8;
 
@@ -100,10 +97,7 @@ pub(super) fn paths_over_grid(
     }
 
     monitor.stage(Stage::TipPath);
-    let slack = match settings.objective {
-        Objective::Tip => 0.0,
-        Objective::Joint | Objective::Time => NEARLY_EQUAL,
-    };
+    let slack = settings.objective.slack();
     let worth_it = starts.iter().filter(|&&start| field.cost_to_go(start) <= least * (1.0 + slack));
     let mut own: Vec<(f64, Vec<usize>)> = Vec::new();
     let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();

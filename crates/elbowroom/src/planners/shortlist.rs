@@ -4,7 +4,7 @@ use crate::arm::Configuration;
 use crate::path::{JointPath, link_clearances, simplify};
 use crate::planning::Objective;
 use crate::scene::Scene;
-use crate::trajectory::{SpeedLimits, fastest_durations, vias_at};
+use crate::trajectory::SpeedLimits;
 
 /// Paths whose estimated cost differs by no more than about this share are the same to the objective: clearance decides.
 const SAME_COST: f64 = 1e-9;
@@ -17,10 +17,9 @@ pub(crate) fn shortlist(
     paths: Vec<(f64, JointPath)>,
     most: usize,
 ) -> Vec<(f64, JointPath)> {
-    let estimated_cost = |tip_cost: f64, path: &JointPath| match objective {
-        Objective::Tip => tip_cost,
-        Objective::Joint => JointPath(corners(scene, path)).length(),
-        Objective::Time => fastest_durations(&vias_at(&corners(scene, path)), limits).iter().sum(),
+    let estimated_cost = |tip_cost: f64, path: &JointPath| {
+        let corners = || corners(scene, path);
+        objective.estimate(limits, || tip_cost, || JointPath(corners()).length(), corners)
     };
     let mut estimated: Vec<(f64, f64, (f64, JointPath))> = paths
         .into_iter()

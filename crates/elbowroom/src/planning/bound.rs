@@ -60,7 +60,7 @@ fn prove(
     distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<Proved, PlanError> {
-    let measure = measure_of(objective, limits);
+    let measure = objective.measure(limits);
     for share in TRIED {
         match with_walls(scene, ends, measure, share * distance, &|| monitor.keep_going()) {
             Ok(OverJoints::Parted(reachable)) => {
@@ -68,10 +68,10 @@ fn prove(
                 return Ok(Proved::NoPath(NoPath { reachable, starts, goals }));
             }
             Ok(OverJoints::AtLeast(way)) => {
-                return Ok(Proved::AtLeast(match objective {
-                    Objective::Joint => way,
-                    Objective::Time => from_rest_to_rest(way, limits),
-                    Objective::Tip => tip_bound(scene, ends, distance, &|| monitor.keep_going())?,
+                return Ok(Proved::AtLeast(if objective.is_in_workspace() {
+                    tip_bound(scene, ends, distance, &|| monitor.keep_going())?
+                } else {
+                    objective.of_way(way, limits)
                 }));
             }
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -79,24 +79,6 @@ fn prove(
         }
     }
     Ok(Proved::Nothing)
-}
-
-/// What a way over the joints costs: for time, that of joints at their greatest speeds all along.
-pub(crate) fn measure_of(objective: Objective, limits: &[SpeedLimits]) -> Measure {
-    match objective {
-        Objective::Tip | Objective::Joint => Measure::Euclidean,
-        Objective::Time => Measure::Greatest([0, 1].map(|j| 1.0 / limits[j].velocity)),
-    }
-}
-
-/// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
-/// again: one of them covers all of it, and has to speed up and slow down. A joint without a greatest speed takes no time.
-fn from_rest_to_rest(way: f64, limits: &[SpeedLimits]) -> f64 {
-    let least = |limit: &SpeedLimits| {
-        let speeding_up = limit.velocity / limit.acceleration;
-        if way >= speeding_up { way + speeding_up } else { 2.0 * (way * speeding_up).sqrt() }
-    };
-    limits.iter().filter(|limit| limit.velocity.is_finite()).map(least).reduce(f64::min).unwrap_or(0.0)
 }
 
 /// The shortest way of the tip among obstacles and around what it cannot reach, whatever the links touch (m): the

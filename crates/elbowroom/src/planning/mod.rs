@@ -24,7 +24,7 @@ mod settings;
 mod smoothing;
 mod solve;
 
-pub(crate) use bound::{least_cost, measure_of};
+pub(crate) use bound::least_cost;
 pub use budget::{Budget, Exhausted};
 pub use candidate::{Candidate, CertifiedPath, Found, Pick, Uncertified};
 pub use effort::Effort;
@@ -36,7 +36,7 @@ pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use mismatch::{END_ROUNDING, Mismatch, mismatch};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use no_path::NoPath;
-pub use objective::Objective;
+pub use objective::{NEARLY_EQUAL, Objective};
 pub use options::OptionValue;
 pub use plan::{Plan, PlanRecord, RecordError, gap};
 pub use planner::{Planner, Round};

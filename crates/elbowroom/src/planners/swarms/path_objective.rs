@@ -1,6 +1,6 @@
 //! How long a polyline of configurations is, and how far from free.
 
-use crate::arm::{Configuration, joint_distance, lerp};
+use crate::arm::Configuration;
 use crate::path::Penetration;
 use crate::planning::{Objective, motion_limits};
 use crate::scene::Scene;
@@ -39,17 +39,11 @@ impl<'a> PathObjective<'a> {
 
     /// What straight turns from place to place cost.
     pub(in crate::planners) fn cost(&self, places: &[Configuration]) -> f64 {
-        let pairs = places.windows(2);
-        match self.objective {
-            Objective::Tip => pairs.map(|pair| self.tip_travel(&pair[0], &pair[1])).sum(),
-            Objective::Joint => pairs.map(|pair| joint_distance(&pair[0], &pair[1])).sum(),
-            Objective::Time => pairs
-                .map(|pair| {
-                    let joints = pair[0].iter().zip(pair[1].iter()).zip(&self.limits);
-                    joints.map(|((a, b), limit)| (b - a).abs() / limit.velocity).fold(0.0, f64::max)
-                })
-                .sum(),
-        }
+        let cost = |pair: &[Configuration]| {
+            let (from, to) = (&*pair[0], &*pair[1]);
+            self.objective.of_move(self.scene.arm(), &self.limits, (from, to), || self.looks(from, to))
+        };
+        places.windows(2).map(cost).sum()
     }
 
     /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
@@ -76,21 +70,6 @@ impl<'a> PathObjective<'a> {
             })
             .sum();
         sum * moved.max(self.look_every * 1e-3)
-    }
-
-    /// Tip travel on a straight turn (m), by chords from look to look.
-    fn tip_travel(&self, from: &[f64], to: &[f64]) -> f64 {
-        let looks = self.looks(from, to);
-        let tip = |i: usize| self.scene.arm().tip(&lerp::<Configuration>(from, to, i as f64 / looks as f64));
-        let mut last = tip(0);
-        (1..=looks)
-            .map(|i| {
-                let next = tip(i);
-                let chord = next.distance(last);
-                last = next;
-                chord
-            })
-            .sum()
     }
 
     fn looks(&self, from: &[f64], to: &[f64]) -> usize {

@@ -4,16 +4,12 @@ use super::local_planner::LocalPlanner;
 use crate::arm::{Arm, Configuration, joint_distance};
 use crate::path::{JointPath, simplify};
 use crate::planning::{Exhausted, Objective, motion_limits};
-use crate::trajectory::{fastest_durations, vias_at};
 
 /// Shortcuts tried for each path.
 const TRIES: usize = 250;
 
 /// Tries without a gain after which it ends.
 const PATIENCE: usize = 60;
-
-/// What joint travel weighs where tip travel counts, as a share of the reach (m/rad): enough against needless self-motion.
-const JOINT_SHARE: f64 = 0.02;
 
 /// Places nearer to the path than this, in grid steps, do not count for its estimated time.
 const TOLERANCE: f64 = 0.1;
@@ -25,24 +21,11 @@ pub(in crate::planners) fn estimated_cost(
     path: &JointPath,
     grid_step: f64,
 ) -> f64 {
-    match objective {
-        Objective::Tip => path.tip_travel(arm),
-        Objective::Joint => path.length(),
-        Objective::Time => {
-            let kept = simplify(arm, &path.0, TOLERANCE * grid_step);
-            let places: Vec<Configuration> = kept.into_iter().map(|i| path.0[i].clone()).collect();
-            fastest_durations(&vias_at(&places), &motion_limits(arm).0).iter().sum()
-        }
-    }
-}
-
-/// What a stretch of a path weighs when another is tried in its place.
-fn weight(arm: &Arm, objective: Objective, places: &[Configuration]) -> f64 {
-    let joint: f64 = places.windows(2).map(|pair| joint_distance(&pair[0], &pair[1])).sum();
-    match objective {
-        Objective::Tip => JointPath(places.to_vec()).tip_travel(arm) + JOINT_SHARE * arm.reach()[1] * joint,
-        Objective::Joint | Objective::Time => joint,
-    }
+    let corners = || {
+        let kept = simplify(arm, &path.0, TOLERANCE * grid_step);
+        kept.into_iter().map(|i| path.0[i].clone()).collect()
+    };
+    objective.estimate(&motion_limits(arm).0, || path.tip_travel(arm), || path.length(), corners)
 }
 
 /// `path` with straight turns, certified, in place of stretches that weigh more; it ends early where the budget does.
@@ -70,7 +53,7 @@ pub(in crate::planners) fn shortened(
         stretch.extend(path[first.0 + 1..=last.0].iter().cloned());
         stretch.push(last.1.clone());
         let ends = [first.1.clone(), last.1.clone()];
-        if weight(arm, objective, &ends) >= weight(arm, objective, &stretch) * (1.0 - 1e-6) {
+        if objective.weight(arm, &ends) >= objective.weight(arm, &stretch) * (1.0 - 1e-6) {
             continue;
         }
         match local.connects(&first.1, &last.1) {
