@@ -194,7 +194,7 @@ pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pla
         PlanError::OtherArm { links, .. } => {
             let serving = planners::all().into_iter().filter(|known| known.links().contains(links));
             let names: Vec<String> = serving.map(|known| known.name().to_owned()).collect();
-            setting(py, "planner", &format!("{message}: {} serve it", names.join(", ")))
+            setting(py, "planner", &format!("{message}; those that serve it: {}", names.join(", ")))
         }
         PlanError::PostureOfMany { .. } => setting(py, "posture", &message),
         PlanError::EndNotFound { .. } | PlanError::NotFoundInBudget { .. } => not_found(py, &message, None),

@@ -99,7 +99,9 @@ pub(crate) fn plan_again(
     let (again, _) =
         watch::run(py, None, None, |_| planning::Plan::again(&core.scene, task, objective, motion, record))?;
     let plan = again.map_err(|error| match &error {
-        RecordError::Refused(verdict) => refuted(py, &error.to_string(), Verdict::new(core, verdict, None)),
+        RecordError::Refused(verdict) => {
+            refuted(py, "the plan was kept as safe", Verdict::new(core, verdict, None))
+        }
         RecordError::Path { .. } => errors::setting(py, "configurations", &error.to_string()),
         _ => errors::refuted(py, &error.to_string(), None),
     })?;
