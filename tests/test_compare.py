@@ -17,10 +17,10 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom._core import ASSUMED_LIMITS
+from elbowroom._core import ASSUMED_LIMITS, mismatch
 from elbowroom.compare import Row, Table, compare, straight_turns
 from elbowroom.compare.local import run_locally
-from elbowroom.compare.measure import Lengths, lengths, misses
+from elbowroom.compare.measure import Lengths, lengths
 from elbowroom.compare.row import Problem
 from elbowroom.compare.run import run
 from elbowroom.compare.table import DamagedTable, parquet_is_there, write_parquet
@@ -33,7 +33,7 @@ TESTS = Path(__file__).parent
 
 def problem(choice: Choice, scene: Path, *, task: str = "first", seed: int = 0, **asked: Any) -> Problem:
     given: dict[str, Any] = {"budget": None, "timeout": None, "objective": "tip"} | asked
-    return Problem.of(choice, scene=str(scene), content=scene.read_bytes(), task=task, seed=seed, **given)
+    return Problem.of(choice, scene=er.Scene.load(scene), file=str(scene), task=task, seed=seed, **given)
 
 
 def once(text: str, scene: Path, **asked: Any) -> Row:
@@ -51,7 +51,7 @@ def test_lengths_are_those_of_the_core(standin: er.Scene, planner: Any) -> None:
             plan = er.plan(standin, task=task, planner=planner, objective=objective)  # type: ignore[arg-type]
             assert lengths(standin, plan.motion).by(objective) == pytest.approx(plan.cost, rel=1e-7)
             assert plan.verdict is not None
-            assert misses(standin, task, plan.motion, plan.verdict) is None
+            assert mismatch(standin, task, plan.motion, plan.verdict.posture_changes) is None
 
 
 def test_lengths_in_closed_form(standin: er.Scene) -> None:
@@ -66,19 +66,19 @@ def test_lengths_in_closed_form(standin: er.Scene) -> None:
 def test_a_motion_that_does_another_task_misses(standin: er.Scene) -> None:
     plan = er.plan(standin, task="first")
     assert plan.verdict is not None
-    assert "m from the start" in str(misses(standin, "second", plan.motion, plan.verdict))
+    assert "m from the start" in str(mismatch(standin, "second", plan.motion, plan.verdict.posture_changes))
     end = plan.configurations[-1]
     for posture, fits in (("up", end[1] < 0), ("down", end[1] > 0), ("any", True)):
         asked = er.Task(start=(0.4, 0.1), goal=(-0.45, -0.15), posture=posture)  # type: ignore[arg-type]
         scene = er.Scene(arm=standin.arm, grid=standin.grid, obstacles=standin.obstacles, tasks={"first": asked})
-        assert (misses(scene, "first", plan.motion, plan.verdict) is None) == fits
+        assert (mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) is None) == fits
     turned = er.Configuration((float(end[0]) + math.tau, float(end[1])))
     asked = er.Task(start=(0.4, 0.1), goal=turned)
     scene = er.Scene(arm=standin.arm, grid=standin.grid, obstacles=standin.obstacles, tasks={"first": asked})
-    assert misses(scene, "first", plan.motion, plan.verdict) is None
+    assert mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) is None
     asked = er.Task(start=(0.4, 0.1), goal=er.Configuration((float(end[0]), float(end[1]) + 0.01)))
     scene = er.Scene(arm=standin.arm, grid=standin.grid, obstacles=standin.obstacles, tasks={"first": asked})
-    assert misses(scene, "first", plan.motion, plan.verdict) == "the motion is 0.01 rad from the goal"
+    assert mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) == "the motion is 0.01 rad from the goal"
 
 
 def test_straight_turns_keep_the_limits_and_are_as_fast_as_they_allow(standin: er.Scene) -> None:
@@ -209,7 +209,7 @@ def test_settings_that_make_no_sense_are_refused(scenes: Path, tmp_path: Path, w
 def test_scenes_without_tasks_and_twice_the_same_are_refused(scenes: Path, tmp_path: Path) -> None:
     text = (scenes / "paper-standin.yaml").read_text()
     (tmp_path / "bare.yaml").write_text(text[: text.index("tasks:")])
-    (tmp_path / "copy.yaml").write_text(text)
+    (tmp_path / "copy.yaml").write_text(f"# Said again.\n{text}")
     with pytest.raises(er.BadSetting, match="has no tasks"):
         asked(scenes, tmp_path / "out", scenes=[tmp_path / "bare.yaml"])
     with pytest.raises(er.BadSetting, match="are the same scene"):
