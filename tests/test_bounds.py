@@ -36,7 +36,7 @@ def test_a_smaller_gap_can_be_asked_for(standin: er.Scene) -> None:
     assert plan.gap <= 0.001
     with pytest.raises(er.BadSetting, match="must be 0 or greater"):
         er.plan(standin, task="first", planner="optimal", gap=-1.0)
-    with pytest.raises(er.BadSetting, match="gap is for the planner optimal"):
+    with pytest.raises(er.BadSetting, match="gap is for planners that search in rounds"):
         er.plan(standin, task="first", planner="dstar", gap=0.1)
 
 

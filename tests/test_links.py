@@ -23,6 +23,8 @@ from elbowroom.plan_files import as_json, columns, write_plan
 Chain = Callable[..., er.Scene]
 Planned = Callable[[er.Scene], er.Plan]
 
+SERVING = ": guided-rrt-connect, pso, cbpso, nsc-pso, ik-pso serve it"
+
 
 def as_yaml(scene: er.Scene) -> str:
     """``scene`` as a file, in metres and radians."""
@@ -211,7 +213,7 @@ def test_what_needs_two_links_says_so(chain: Chain, planned: Planned) -> None:
     for what, message in (
         (lambda: er.free_space(scene), "a map per posture needs an arm of 2 links; the arm of this scene has 5"),
         (lambda: er.plan_as_in_paper(scene), "the paper's system needs an arm of 2 links; the arm of this scene has 5"),
-        (lambda: er.plan(scene, planner="optimal"), "planner optimal is for arms of 2 links; this one has 5"),
+        (lambda: er.plan(scene, planner="optimal"), f"planner optimal is for arms of 2 links; this one has 5{SERVING}"),
         (
             lambda: configuration_space(planned(scene)),
             "the configuration space is drawn of arms of 2 links; this one has 5",
@@ -231,7 +233,7 @@ def test_the_command_line_refuses_with_one_line(chain: Chain, tmp_path: Path) ->
             f"{file}: maps are per posture, which only arms of 2 links have; this one has 5: plan, check and compare "
             "take it",
         ),
-        (("plan", file, "--planner", "optimal"), "planner optimal is for arms of 2 links; this one has 5"),
+        (("plan", file, "--planner", "optimal"), f"planner optimal is for arms of 2 links; this one has 5{SERVING}"),
         (("check", file, "t.json", "--joints", "a,b"), f"--joints names 2; the arm of {file} has 5 joints"),
     ):
         failed = CliRunner().invoke(app, [str(argument) for argument in arguments])
@@ -250,7 +252,7 @@ def test_the_command_says_which_pictures_are_left_out(chain: Chain, tmp_path: Pa
     names = {"tip_path.png", "smoothed_path.png", "arm_tracking.png", "joints.png", "clearance.png", "motion.gif"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == {*names, "plan.json", "trajectory.csv"}
     as_data = CliRunner().invoke(app, ["plan", str(file), "--out", str(tmp_path / "out"), "--json"])
-    assert json.loads(as_data.stdout)["planner"] == "dstar-pso"
+    assert json.loads(as_data.stdout)["planner"] == "guided-rrt-connect"
 
 
 # Random scenes
