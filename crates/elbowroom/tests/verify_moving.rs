@@ -253,7 +253,9 @@ fn motions_that_make_no_sense_are_named() {
         new(fast.clone(), Sight::Always, Some(2.4)),
         Err(ObstacleMotionError::TooFast { found: 2.5, declared: 2.4 })
     );
-    assert_eq!(ObstacleMotion::new(fast, Sight::Always, None).unwrap().greatest_speed(), 2.5);
+    let motion = ObstacleMotion::new(fast, Sight::Always, None).unwrap();
+    assert_eq!((motion.greatest_speed(), motion.declared_speed()), (2.5, None));
+    assert_eq!(motion.on(Course::Absent).declared_speed(), Some(2.5));
     for sight in [Sight::From(f64::NAN), Sight::Within(-1.0), Sight::Within(f64::INFINITY)] {
         assert!(matches!(new(still(), sight, None), Err(ObstacleMotionError::Number { .. })));
     }

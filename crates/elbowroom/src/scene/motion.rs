@@ -15,6 +15,7 @@ pub struct ObstacleMotion {
     course: Course,
     sight: Sight,
     greatest_speed: f64,
+    declared: bool,
 }
 
 /// Where a moving obstacle is, as a shift from where the scene has it (m).
@@ -128,13 +129,13 @@ impl ObstacleMotion {
         if found > declared * (1.0 + 1e-9) {
             return Err(ObstacleMotionError::TooFast { found, declared });
         }
-        Ok(Self { course, sight, greatest_speed: declared })
+        Ok(Self { course, sight, greatest_speed: declared, declared: greatest_speed.is_some() })
     }
 
     /// With the same greatest speed, but the course known otherwise.
     #[must_use]
     pub fn on(&self, course: Course) -> Self {
-        Self { course, ..self.clone() }
+        Self { course, declared: true, ..self.clone() }
     }
 
     /// Where the obstacle is at which time.
@@ -150,6 +151,11 @@ impl ObstacleMotion {
     /// It is never faster (m/s).
     pub fn greatest_speed(&self) -> f64 {
         self.greatest_speed
+    }
+
+    /// The greatest speed if it was declared (m/s); `None` where it is that of the course.
+    pub fn declared_speed(&self) -> Option<f64> {
+        self.declared.then_some(self.greatest_speed)
     }
 }
 

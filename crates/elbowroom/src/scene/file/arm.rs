@@ -1,12 +1,17 @@
 use super::error::ParseProblem;
-use super::keys;
+use super::keys::Keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
 use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits};
 use crate::geometry::Point;
 
+pub(super) const ARM: Keys =
+    Keys { required: &["links", "joints"], optional: &["half_width", "base", "self_collision"] };
+pub(super) const JOINT: Keys =
+    Keys { required: &[], optional: &["continuous", "min", "max", "velocity", "acceleration", "jerk"] };
+
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
-    let map = value.map(&keys::ARM)?;
+    let map = value.map(&ARM)?;
     let links_value = map.required("links")?;
     let links = links_value.list("a list of link lengths")?;
     let lengths = links
@@ -48,7 +53,7 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
 }
 
 fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
-    let map = value.map(&keys::JOINT)?;
+    let map = value.map(&JOINT)?;
     let limits = match (map.optional("continuous"), map.optional("min"), map.optional("max")) {
         (Some(continuous), None, None) => {
             continuous

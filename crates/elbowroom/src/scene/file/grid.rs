@@ -1,10 +1,12 @@
-use super::keys;
+use super::keys::Keys;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::grid::{Grid, GridError};
 
+pub(super) const GRID: Keys = Keys { required: &["x", "y", "step"], optional: &[] };
+
 pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Grid, Fault> {
-    let map = value.map(&keys::GRID)?;
+    let map = value.map(&GRID)?;
     let range = |key: &'static str| -> Result<[f64; 2], Fault> {
         let [min, max] = map.required(key)?.pair("[min, max]")?;
         Ok([min.length(units)?, max.length(units)?])

@@ -20,11 +20,16 @@ pub use error::{ParseProblem, SceneError};
 pub use location::{Location, Locations};
 
 use super::Scene;
+use keys::Keys;
 use units::Units;
 use value::{Fault, Value};
 
 /// The version of the format that is read.
 const VERSION: &str = "1";
+
+const ROOT: Keys =
+    Keys { required: &["elbowroom", "units", "arm", "grid"], optional: &["obstacles", "tasks"] };
+const UNITS: Keys = Keys { required: &["length", "angle"], optional: &[] };
 
 /// What a scene file says, and where it says it.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,7 +69,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
             .word(&[VERSION])
             .map_err(|_| version.fault(ParseProblem::Version { found: version.in_words(), read: VERSION }))?;
     }
-    let map = root.map(&keys::ROOT)?;
+    let map = root.map(&ROOT)?;
     let units = units(&map.required("units")?)?;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;
@@ -81,7 +86,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
 }
 
 fn units(value: &Value<'_>) -> Result<Units, Fault> {
-    let map = value.map(&keys::UNITS)?;
+    let map = value.map(&UNITS)?;
     let per_metre = match map.required("length")?.word(&["m", "cm", "mm"])? {
         "cm" => 100.0,
         "mm" => 1000.0,
@@ -89,4 +94,43 @@ fn units(value: &Value<'_>) -> Result<Units, Fault> {
     };
     let degrees = map.required("angle")?.word(&["rad", "deg"])? == "deg";
     Ok(Units { per_metre, degrees })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn the_schema_has_the_same_keys() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../schema/scene.schema.json");
+        let schema: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+        for (pointer, keys) in [
+            ("", ROOT),
+            ("/$defs/units", UNITS),
+            ("/$defs/arm", arm::ARM),
+            ("/$defs/joint", arm::JOINT),
+            ("/$defs/grid", grid::GRID),
+            ("/$defs/obstacle", obstacles::OBSTACLE),
+            ("/$defs/circle", obstacles::CIRCLE),
+            ("/$defs/segment", obstacles::SEGMENT),
+            ("/$defs/motion", motion::MOTION),
+            ("/$defs/waypoint", motion::WAYPOINT),
+            ("/$defs/task", tasks::TASK),
+            ("/$defs/configuration", tasks::PLACE),
+        ] {
+            let mapping = schema.pointer(pointer).unwrap();
+            let known: BTreeSet<&str> =
+                mapping["properties"].as_object().unwrap().keys().map(String::as_str).collect();
+            assert_eq!(known, keys.known().collect(), "{pointer}");
+            let required: BTreeSet<&str> = mapping
+                .get("required")
+                .map(|list| list.as_array().unwrap().iter().map(|key| key.as_str().unwrap()).collect())
+                .unwrap_or_default();
+            assert_eq!(required, keys.required.iter().copied().collect(), "{pointer}");
+            assert_eq!(mapping["additionalProperties"], false, "{pointer}");
+        }
+    }
 }

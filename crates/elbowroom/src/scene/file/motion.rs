@@ -1,9 +1,13 @@
 use super::error::ParseProblem;
-use super::keys;
+use super::keys::Keys;
 use super::units::Units;
 use super::value::{Fault, Map, Value};
 use crate::geometry::Vector;
 use crate::scene::{Course, ObstacleMotion, ObstacleMotionError, Sight, Waypoint};
+
+pub(super) const MOTION: Keys =
+    Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases", "keep_off"] };
+pub(super) const WAYPOINT: Keys = Keys { required: &["time", "shift"], optional: &[] };
 
 /// How the obstacle with these keys moves, if it does.
 pub(super) fn read(map: &Map<'_>, units: Units) -> Result<Option<ObstacleMotion>, Fault> {
@@ -29,14 +33,14 @@ pub(super) fn read(map: &Map<'_>, units: Units) -> Result<Option<ObstacleMotion>
 }
 
 fn course(motion: &Value<'_>, units: Units) -> Result<Course, Fault> {
-    let map = motion.map(&keys::MOTION)?;
+    let map = motion.map(&MOTION)?;
     let shift = |value: &Value<'_>| value.point(units).map(|shift| Vector::new(shift.x, shift.y));
     let kinds = ["waypoints", "velocity", "chases"].map(|key| map.optional(key));
     let (start, keep_off) = (map.optional("start"), map.optional("keep_off"));
     match (kinds, start, keep_off) {
         ([Some(waypoints), None, None], None, None) => {
             let waypoint = |value: &Value<'_>| {
-                let map = value.map(&keys::WAYPOINT)?;
+                let map = value.map(&WAYPOINT)?;
                 Ok(Waypoint { time: map.required("time")?.number()?, shift: shift(&map.required("shift")?)? })
             };
             let list = waypoints.list("a list of way-points {time, shift}")?;

@@ -1,13 +1,30 @@
 use std::collections::HashSet;
 
 use super::error::ParseProblem;
-use super::keys;
+use super::keys::Keys;
 use super::motion;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::geometry::{Point, Shape, ShapeError};
 use crate::scene::problem::MOST_OBSTACLES;
 use crate::scene::{Obstacle, SceneProblem};
+
+pub(super) const OBSTACLE: Keys = Keys {
+    required: &[],
+    optional: &[
+        "circle",
+        "segment",
+        "polygon",
+        "name",
+        "motion",
+        "greatest_speed",
+        "seen",
+        "seen_from",
+        "sensing_radius",
+    ],
+};
+pub(super) const CIRCLE: Keys = Keys { required: &["center", "radius"], optional: &[] };
+pub(super) const SEGMENT: Keys = Keys { required: &["from", "to"], optional: &["radius"] };
 
 /// What an obstacle may be, by the key that says so.
 const SHAPES: [(&str, Reader); 3] = [("circle", circle), ("segment", segment), ("polygon", polygon)];
@@ -25,7 +42,7 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Vec<Obstacle>, Fau
 }
 
 fn obstacle<'a>(value: &'a Value<'a>, units: Units, names: &mut HashSet<&'a str>) -> Result<Obstacle, Fault> {
-    let map = value.map(&keys::OBSTACLE)?;
+    let map = value.map(&OBSTACLE)?;
     let name = match map.optional("name") {
         Some(value) => {
             let name = value.name()?;
@@ -50,7 +67,7 @@ fn one_shape(found: &'static str) -> ParseProblem {
 }
 
 fn circle(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
-    let map = value.map(&keys::CIRCLE)?;
+    let map = value.map(&CIRCLE)?;
     let center = map.required("center")?.point(units)?;
     let radius = map.required("radius")?;
     match radius.length(units)? {
@@ -60,7 +77,7 @@ fn circle(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
 }
 
 fn segment(value: &Value<'_>, units: Units) -> Result<Shape, Fault> {
-    let map = value.map(&keys::SEGMENT)?;
+    let map = value.map(&SEGMENT)?;
     let [from, to] = [map.required("from")?.point(units)?, map.required("to")?.point(units)?];
     let radius = match map.optional("radius") {
         None => 0.0,

@@ -1,11 +1,14 @@
 use std::collections::BTreeMap;
 
 use super::Location;
-use super::keys;
+use super::keys::Keys;
 use super::units::Units;
 use super::value::{Fault, Value};
 use crate::scene::problem::{GREATEST_ANGLE, MOST_TASKS};
 use crate::scene::{Place, SceneProblem, Task, TaskPosture};
+
+pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };
+pub(super) const PLACE: Keys = Keys { required: &["q"], optional: &[] };
 
 /// The tasks, and where each has its start and goal.
 pub(super) type Tasks = (Vec<Task>, BTreeMap<String, [Location; 2]>);
@@ -19,7 +22,7 @@ pub(super) fn read(value: &Value<'_>, units: Units, joints: usize) -> Result<Tas
         return Err(value.fault(SceneProblem::Tasks { found: named.len() }.into()));
     }
     for (name, value) in named {
-        let map = value.map(&keys::TASK)?;
+        let map = value.map(&TASK)?;
         let (start, goal) = (map.required("start")?, map.required("goal")?);
         let posture = match map.optional("posture") {
             Some(value) => match value.word(&["up", "down", "any", "keep"])? {
@@ -43,7 +46,7 @@ pub(super) fn read(value: &Value<'_>, units: Units, joints: usize) -> Result<Tas
 
 fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault> {
     if value.is_map() {
-        let map = value.map(&keys::PLACE)?;
+        let map = value.map(&PLACE)?;
         let allowed = format!("[{}], a joint angle each", names(joints));
         let q = map.required("q")?;
         let angles = q.list(&allowed)?;
