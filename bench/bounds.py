@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import elbowroom as er
@@ -61,7 +60,7 @@ def narrow_within_90(picture: Path) -> list[str]:
     """Return what is proved of `narrow` with joint 2 within 90 degrees; the proof is drawn to ``picture``."""
     scene = er.Scene.example("narrow")
     joint = er.Joint(min=-math.pi / 2, max=math.pi / 2)
-    scene = replace(scene, arm=replace(scene.arm, joints=(scene.arm.joints[0], joint)))
+    scene = scene.replace(arm=scene.arm.replace(joints=(scene.arm.joints[0], joint)))
     said = []
     for task in scene.tasks:
         try:

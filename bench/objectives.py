@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import statistics
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import elbowroom as er
@@ -30,7 +30,7 @@ def cases() -> list[Case]:
     found = []
     for name in ("paper-standin", "narrow"):
         scene = er.Scene.example(name)
-        stopped = replace(scene, arm=replace(scene.arm, joints=(STOPS, scene.arm.joints[1])))
+        stopped = scene.replace(arm=scene.arm.replace(joints=(STOPS, scene.arm.joints[1])))
         found += [Case(name, "continuous", scene), Case(name, "0 to 360", stopped)]
     return found + [Case(name, "as built", er.Scene.example(name)) for name in ("abb-irb-910sc-065", "fanuc-sr-3ia")]
 

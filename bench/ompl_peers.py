@@ -42,7 +42,7 @@ def configurations(scene: er.Scene, tip: tuple[float, float]) -> list[tuple[floa
     for q2 in (bend, -bend):
         q1 = math.atan2(tip[1], tip[0]) - math.atan2(second * math.sin(q2), first + second * math.cos(q2))
         q = (q1 % TURN, q2)
-        if scene.core.link_clearances(np.array([q])).min() > 0.0:
+        if scene.link_clearances(np.array([q])).min() > 0.0:
             found.append(q)
     return found
 

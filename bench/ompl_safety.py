@@ -70,13 +70,13 @@ class World:
     goal: Floats
 
     @cached_property
-    def core(self) -> Any:
-        """The scene in elbowroom's core, which computes clearances ten times as fast as NumPy does here."""
-        return self.scene(0.01).core
+    def made(self) -> Any:
+        """The scene as elbowroom has it, which computes clearances ten times as fast as NumPy does here."""
+        return self.scene(0.01)
 
     def free(self, q: Floats) -> bool:
         """Return whether a state is valid: what OMPL is given, exact too."""
-        return bool(self.core.link_clearances(q[None]).min() > 0.0)
+        return bool(self.made.link_clearances(q[None]).min() > 0.0)
 
     def clearance(self, q: Floats) -> float:
         """Return the clearance between the arm and the nearest post (m), in closed form and apart from elbowroom."""
@@ -145,7 +145,7 @@ class ContinuousValidator(ob.MotionValidator):  # type: ignore[misc]
         # No point of the arm moves farther than this over the whole motion.
         reach = 2 * LINK * abs(turn[0]) + LINK * abs(turn[1])
         at = 0.0
-        while (clearance := self.world.core.link_clearances((q + at * turn)[None]).min()) > 1e-6:
+        while (clearance := self.world.made.link_clearances((q + at * turn)[None]).min()) > 1e-6:
             if at == 1.0:
                 return True
             at = min(at + clearance / reach, 1.0) if reach > 0.0 else 1.0

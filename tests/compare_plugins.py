@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -74,7 +73,7 @@ def plans_elsewhere(scene: er.Scene, task: str, *, seed: int, **_: object) -> er
     """Returns a plan that is safe in its own scene: of another task, or of a scene without obstacles."""
     if seed == 0:
         return er.plan(scene, task=next(name for name in scene.tasks if name != task))
-    return er.plan(replace(scene, obstacles=()), task=task)
+    return er.plan(scene.replace(obstacles=()), task=task)
 
 
 def lies(scene: er.Scene, task: str, *, seed: int, **_: object) -> Proposal:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -76,7 +75,7 @@ def test_no_path_is_proved_and_drawn(tmp_path: Path, planner: str) -> None:
 def test_a_wall_between_two_places_parts_them(standin: er.Scene) -> None:
     post = er.Circle(center=(0.3, 0.0), radius=0.02, name="post")
     joint = er.Joint(min=-1.0, max=1.0)
-    arm = replace(standin.arm, joints=(joint, joint))
+    arm = standin.arm.replace(joints=(joint, joint))
     tasks = {"across": er.Task(start=er.Configuration((-0.9, 0.0)), goal=er.Configuration((0.9, 0.0)))}
     scene = er.Scene(arm=arm, grid=standin.grid, obstacles=[post], tasks=tasks)
     with pytest.raises(er.NoPath):
@@ -92,7 +91,7 @@ def test_the_bound_of_time_heeds_only_what_binds_the_motion(standin: er.Scene, p
 
 def test_a_locked_joint_is_no_proof(standin: er.Scene) -> None:
     locked = er.Joint(min=1.0, max=1.0)
-    arm = replace(standin.arm, joints=(er.Joint(continuous=True), locked))
+    arm = standin.arm.replace(joints=(er.Joint(continuous=True), locked))
     task = er.Task(start=er.Configuration((0.0, 1.0)), goal=er.Configuration((0.4, 1.0)), posture="keep")
     scene = er.Scene(arm=arm, grid=standin.grid, tasks={"turn": task})
     with pytest.raises(er.NotFound):

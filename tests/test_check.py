@@ -2,7 +2,6 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -57,7 +56,7 @@ def test_limits_are_judged_by_joint_and_time(post: er.Scene) -> None:
 def test_a_jump_that_its_curve_does_not_allow_is_found(post: er.Scene) -> None:
     t, q = [0.0, 1.0, 2.0], [[2.0, 0.0], [2.5, 0.0], [2.5, 0.5]]
     assert er.check(post, t=t, q=q).safe
-    limited = replace(post, arm=replace(post.arm, joints=(er.Joint(continuous=True, acceleration=9.0),) * 2))
+    limited = post.replace(arm=post.arm.replace(joints=(er.Joint(continuous=True, acceleration=9.0),) * 2))
     kinds = {v.kind for v in er.check(limited, t=t, q=q).verdict.violations}
     assert kinds == {"velocity_jump"}
     # Cubic with matching velocities: only the acceleration jumps, and nothing limits the jerk.
@@ -67,8 +66,8 @@ def test_a_jump_that_its_curve_does_not_allow_is_found(post: er.Scene) -> None:
 
 @pytest.mark.parametrize("objective", ["tip", "joint", "time"])
 def test_our_own_csv_is_safe_under_all_limits(standin: er.Scene, tmp_path: Path, objective: er.plan.Objective) -> None:
-    joints = tuple(replace(joint, velocity=3.0, acceleration=12.0, jerk=90.0) for joint in standin.arm.joints)
-    scene = replace(standin, arm=replace(standin.arm, joints=joints))
+    joints = tuple(joint.replace(velocity=3.0, acceleration=12.0, jerk=90.0) for joint in standin.arm.joints)
+    scene = standin.replace(arm=standin.arm.replace(joints=joints))
     for task in scene.tasks:
         plan = er.plan(scene, task=task, objective=objective)
         assert plan.verdict is not None

@@ -33,7 +33,7 @@ TESTS = Path(__file__).parent
 
 def problem(choice: Choice, scene: Path, *, task: str = "first", seed: int = 0, **asked: Any) -> Problem:
     given: dict[str, Any] = {"budget": None, "timeout": None, "objective": "tip"} | asked
-    return Problem.of(choice, scene=str(scene), content=scene.read_bytes(), task=task, seed=seed, **given)
+    return Problem.of(choice, scene=er.Scene.load(scene), file=str(scene), task=task, seed=seed, **given)
 
 
 def once(text: str, scene: Path, **asked: Any) -> Row:
@@ -209,7 +209,7 @@ def test_settings_that_make_no_sense_are_refused(scenes: Path, tmp_path: Path, w
 def test_scenes_without_tasks_and_twice_the_same_are_refused(scenes: Path, tmp_path: Path) -> None:
     text = (scenes / "paper-standin.yaml").read_text()
     (tmp_path / "bare.yaml").write_text(text[: text.index("tasks:")])
-    (tmp_path / "copy.yaml").write_text(text)
+    (tmp_path / "copy.yaml").write_text(f"# Said again.\n{text}")
     with pytest.raises(er.BadSetting, match="has no tasks"):
         asked(scenes, tmp_path / "out", scenes=[tmp_path / "bare.yaml"])
     with pytest.raises(er.BadSetting, match="are the same scene"):

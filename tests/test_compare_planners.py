@@ -5,7 +5,6 @@ import re
 import subprocess
 import sys
 from collections import Counter
-from dataclasses import replace
 from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import Any
@@ -65,7 +64,7 @@ def plugins(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def problem(choice: Choice, scene: Path, *, task: str = "first", seed: int = 0, **asked: Any) -> Problem:
     given: dict[str, Any] = {"budget": None, "timeout": None, "objective": "tip"} | asked
-    return Problem.of(choice, scene=str(scene), content=scene.read_bytes(), task=task, seed=seed, **given)
+    return Problem.of(choice, scene=er.Scene.load(scene), file=str(scene), task=task, seed=seed, **given)
 
 
 def once(text: str, scene: Path, **asked: Any) -> Row:
@@ -336,7 +335,7 @@ def test_the_planner_in_the_docs_plans(standin: er.Scene) -> None:
     names: dict[str, Any] = {}
     exec(block[1], names)
     ends = (er.Configuration((0.0, 0.5)), er.Configuration((-2.0, 0.6)))
-    scene = replace(standin, tasks={"go": er.Task(start=ends[0], goal=ends[1])})
+    scene = standin.replace(tasks={"go": er.Task(start=ends[0], goal=ends[1])})
     asked = {"seed": 0, "timeout": None, "budget": None, "objective": "tip"}
     found = names["halfway"](scene, "go", **asked)
     assert er.check(scene, t=found.t, q=found.q, v=found.v, a=found.a).safe

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -176,6 +175,6 @@ def test_obstacles_that_stand_still_are_followed_too(standin: er.Scene) -> None:
     followed = follow(standin, task="first")
     assert followed.outcome == "reached"
     assert list(clearances(followed)) == ["standing obstacles"]
-    empty = follow(replace(standin, obstacles=()), task="first")
+    empty = follow(standin.replace(obstacles=()), task="first")
     assert empty.outcome == "reached"
     assert clearances(empty) == {}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -103,9 +102,9 @@ def test_shades_show_the_order_and_lines_are_told_apart() -> None:
 
 def test_limits_that_joints_share_are_drawn_once(chain: Chain, planned: Planned) -> None:
     scene = chain(10)
-    fast = replace(scene.arm.joints[4], velocity=3.0)
+    fast = scene.arm.joints[4].replace(velocity=3.0)
     joints = (*scene.arm.joints[:4], fast, *scene.arm.joints[5:])
-    figure = figures.joint_curves(planned(replace(scene, arm=replace(scene.arm, joints=joints))))
+    figure = figures.joint_curves(planned(scene.replace(arm=scene.arm.replace(joints=joints))))
     labels = [axes.get_legend_handles_labels()[1] for axes in figure.axes]
     assert labels[0] == [*(f"joint {j}" for j in range(1, 11)), "limit of joints 2 to 10"]
     assert labels[1] == [

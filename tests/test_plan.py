@@ -7,7 +7,6 @@ import signal
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +35,7 @@ def test_the_paper_mode_plan_is_what_it_says(standin: er.Scene) -> None:
     assert steps.sum() == pytest.approx(plan.cost, abs=1e-12)
     assert plan.verdict is None
     assert plan.gap is None
-    tips = standin.core.link_ends(plan.configurations)[:, -1]
+    tips = standin.link_ends(plan.configurations)[:, -1]
     np.testing.assert_allclose(tips, plan.tip_path, atol=1e-12)
     samples = plan.sample(period=0.01)
     assert samples.t[0] == 0.0
@@ -64,7 +63,7 @@ def test_plan_files_hold_the_plan(standin: er.Scene, tmp_path: Path) -> None:
 
 
 def test_a_motion_of_no_length_is_one_row(standin: er.Scene) -> None:
-    still = replace(standin, tasks={"stay": er.Task(start=(0.4, 0.1), goal=(0.4, 0.1))})
+    still = standin.replace(tasks={"stay": er.Task(start=(0.4, 0.1), goal=(0.4, 0.1))})
     plan = er.plan_as_in_paper(still)
     assert (plan.cost, plan.motion.duration) == (0.0, 0.0)
     assert len(as_csv(plan).splitlines()) == 2
@@ -118,8 +117,8 @@ def test_a_verified_plan_is_what_it_says(standin: er.Scene) -> None:
     assert er.plan(standin, task="first", objective="time").cost == pytest.approx(
         er.plan(standin, task="first", objective="time").motion.duration
     )
-    limited = replace(standin.arm.joints[0], velocity=1.0)
-    slow = replace(standin, arm=replace(standin.arm, joints=(limited, standin.arm.joints[1])))
+    limited = standin.arm.joints[0].replace(velocity=1.0)
+    slow = standin.replace(arm=standin.arm.replace(joints=(limited, standin.arm.joints[1])))
     with pytest.raises(er.BadSetting, match="duration"):
         er.plan(slow, task="first", duration=0.5)
 
@@ -149,13 +148,13 @@ def test_no_sample_is_nearer_than_the_proved_clearance(standin: er.Scene) -> Non
     q = plan.at(np.linspace(0.0, plan.motion.duration, 5001)).q
     nearest = plan.verdict and plan.verdict.least_clearance
     assert nearest
-    sampled = standin.core.link_clearances(q).min()
+    sampled = standin.link_clearances(q).min()
     assert nearest.at_least is not None
     assert nearest.at_least <= sampled <= nearest.distance + 1e-4
 
 
 def large(scene: er.Scene) -> er.Scene:
-    return replace(scene, grid=replace(scene.grid, step=0.0002))
+    return scene.replace(grid=scene.grid.replace(step=0.0002))
 
 
 @pytest.mark.parametrize("planner", [er.plan, er.plan_as_in_paper])
@@ -183,7 +182,7 @@ def test_ctrl_c_stops_the_core(standin: er.Scene, planner: Callable[..., er.Plan
 def test_stages_are_told_in_their_order(standin: er.Scene) -> None:
     seen: list[str] = []
     plan = er.plan_as_in_paper(
-        replace(standin, grid=replace(standin.grid, step=0.001)), task="first", on_stage=seen.append
+        standin.replace(grid=standin.grid.replace(step=0.001)), task="first", on_stage=seen.append
     )
     assert list(plan.timings) == ["free_space", "cost_to_go", "tip_path", "joint_path", "trajectory"]
     assert seen == list(plan.timings)[: len(seen)]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pickle
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -101,7 +100,7 @@ def test_a_motion_that_is_not_safe_comes_with_its_verdict(scenes: Path) -> None:
     scene = er.Scene.load(scenes / "narrow.yaml")
 
     def through(scene: er.Scene, task: str, **_: object) -> Proposal:
-        free = er.plan(replace(scene, obstacles=()), task=task).sample()
+        free = er.plan(scene.replace(obstacles=()), task=task).sample()
         return Proposal(t=free.t, q=free.q, v=free.v, a=free.a)
 
     with pytest.raises(er.PlannerFault, match=r"planner .*through: its motion is not proved to be safe") as caught:
@@ -185,7 +184,7 @@ def test_a_scene_that_moves_is_certified_by_no_planner(scenes: Path) -> None:
     """Not even one that hands back what is safe while everything stands still."""
     moving = er.Scene.load(scenes / "late.yaml")
     task = next(iter(moving.tasks))
-    still = replace(moving, obstacles=tuple(replace(one, motion=None) for one in moving.obstacles))
+    still = moving.replace(obstacles=tuple(one.replace(motion=None) for one in moving.obstacles))
     with pytest.raises(er.BadSetting, match="moves"):
         er.plan(moving, task=task, planner=lambda *_, **__: er.plan(still, task=task))  # type: ignore[arg-type,misc]
 

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -91,7 +90,7 @@ def test_an_arm_that_is_elsewhere_gets_a_motion_from_where_it_is(scene: er.Scene
 def test_start_and_posture_can_be_chosen(scene: er.Scene) -> None:
     assert er.Replanner(scene).start[1] < 0.0
     assert er.Replanner(scene, q=[1.0, 0.5]).start.tolist() == [1.0, 0.5]
-    down = replace(scene, tasks={"down": replace(scene.tasks["first"], posture="down")})
+    down = scene.replace(tasks={"down": scene.tasks["first"].replace(posture="down")})
     replanner = er.Replanner(down)
     update = replanner.update({"shuttle": None}, now=0.0, q=replanner.start)
     assert update.reaches_goal
@@ -131,8 +130,8 @@ def test_no_replanner_for_what_it_cannot_do(scene: er.Scene) -> None:
     with pytest.raises(er.UnknownTask):
         er.Replanner(scene, task="second")
     with pytest.raises(er.BadSetting, match="keep its posture"):
-        er.Replanner(replace(scene, tasks={"keep": replace(scene.tasks["first"], posture="keep")}))
-    far = replace(scene, tasks={"far": er.Task(start=(0.4, 0.1), goal=(0.9, 0.0))})
+        er.Replanner(scene.replace(tasks={"keep": scene.tasks["first"].replace(posture="keep")}))
+    far = scene.replace(tasks={"far": er.Task(start=(0.4, 0.1), goal=(0.9, 0.0))})
     with pytest.raises(er.NotFree) as caught:
         er.Replanner(far)
     assert caught.value.end == "goal"

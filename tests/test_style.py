@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -44,10 +43,10 @@ def test_a_polygon_is_rounded_outwards(turned: bool) -> None:
 
 def test_every_shape_is_drawn_as_large_as_it_is(standin: er.Scene) -> None:
     thin = er.Segment(start=(-0.3, 0.1), end=(-0.1, 0.3))
-    thick = replace(thin, radius=0.02)
+    thick = thin.replace(radius=0.02)
     wedge = er.Polygon(vertices=[(0.1, 0.1), (0.3, 0.1), (0.2, 0.4)])
     disc = er.Circle(center=(0.1, -0.3), radius=0.07)
-    _, axes = plane("shapes", replace(standin, obstacles=[thin, thick, wedge, disc], tasks={}))
+    _, axes = plane("shapes", standin.replace(obstacles=[thin, thick, wedge, disc], tasks={}))
     line, wall, corners, circle = axes.patches
     assert isinstance(line, Polygon)
     assert isinstance(circle, Circle)

@@ -6,7 +6,6 @@ import copy
 import json
 import pickle
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -65,7 +64,7 @@ def test_plans_of_every_arm_survive(chain: Chain, planner: str) -> None:
 def test_equal_is_what_says_the_same(standin: er.Scene, plan: er.Plan) -> None:
     assert er.plan(standin, task="first", objective="time", seed=1) == plan
     assert er.plan(standin, task="second", objective="time", seed=1) != plan
-    assert er.plan(replace(standin, obstacles=standin.obstacles[:4]), task="first", objective="time", seed=1) != plan
+    assert er.plan(standin.replace(obstacles=standin.obstacles[:4]), task="first", objective="time", seed=1) != plan
     linear, quintic = (er.check(standin, t=[0.0, 1.0], q=np.zeros((2, 2)), v=v, a=v) for v in (None, np.zeros((2, 2))))
     assert linear.verdict == quintic.verdict
     assert linear != quintic
@@ -86,7 +85,7 @@ def test_no_claim_is_taken_from_a_pickle(standin: er.Scene, plan: er.Plan) -> No
         restore(scene, stops_and_jumps, kept)
     assert caught.value.verdict is not None
     assert not caught.value.verdict.safe
-    blocked = replace(standin, obstacles=(*standin.obstacles, er.Circle(center=(0.4, 0.1), radius=0.03)))
+    blocked = standin.replace(obstacles=(*standin.obstacles, er.Circle(center=(0.4, 0.1), radius=0.03)))
     with pytest.raises(er.Refuted, match="touches"):
         restore(blocked, motion, kept)
     with pytest.raises(er.Refuted, match="kept with a cost of 1"):

@@ -6,7 +6,6 @@ import math
 import os
 import statistics
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +32,7 @@ SIDES = 128
 def with_points(scene: er.Scene, points: int) -> er.Scene:
     """Return ``scene`` with ``points`` along each side of its grid."""
     low, high = scene.grid.x
-    return replace(scene, grid=replace(scene.grid, step=(high - low) / (points - 1)))
+    return scene.replace(grid=scene.grid.replace(step=(high - low) / (points - 1)))
 
 
 def core_map(file: Path, points: int, runs: int, threads: int | None) -> tuple[float, Mask]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import statistics
 import sys
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -26,7 +25,7 @@ def moved(scene: er.Scene, obstacle: int) -> er.Scene:
     """Return the scene with one obstacle a grid step to the right."""
     shapes = list(scene.obstacles)
     shapes[obstacle] = shapes[obstacle].shifted((scene.grid.step, 0.0))
-    return replace(scene, obstacles=tuple(shapes))
+    return scene.replace(obstacles=tuple(shapes))
 
 
 def by_toolbox(points: int, after_costs: dict[int, float]) -> Entry:

@@ -6,14 +6,24 @@ Lengths are in metres, angles in radians, times in seconds; positions are in the
 from importlib.metadata import version
 
 from elbowroom._core import (
+    Arm,
     Check,
+    Circle,
     Clearance,
+    Configuration,
+    Grid,
+    Joint,
     JointMargin,
     Motion,
     MotionMargin,
     MotionMargins,
+    ObstacleMotion,
     PaperPlan,
     Plan,
+    Polygon,
+    Scene,
+    Segment,
+    Task,
     Verdict,
     Violation,
 )
@@ -37,7 +47,6 @@ from elbowroom.known import Known, Sighting
 from elbowroom.plan import plan, plan_as_in_paper
 from elbowroom.replanner import Replanner, Update
 from elbowroom.samples import Samples
-from elbowroom.scene import Arm, Circle, Configuration, Grid, Joint, ObstacleMotion, Polygon, Scene, Segment, Task
 from elbowroom.world import World
 
 __version__ = version("elbowroom")

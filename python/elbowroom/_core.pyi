@@ -1,28 +1,39 @@
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal, Self, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import disjoint_base
 
-from elbowroom import scene
 from elbowroom.known import Known
 from elbowroom.samples import Samples
+from elbowroom.scene import Outline, Pair, Place, PostureWish
 
 __all__ = [
     "ASSUMED_LIMITS",
     "TICK",
+    "Arm",
     "Check",
+    "Circle",
     "Clearance",
+    "Configuration",
     "FreeSpace",
+    "Grid",
+    "Joint",
     "JointMargin",
     "Motion",
     "MotionMargin",
     "MotionMargins",
+    "Obstacle",
+    "ObstacleMotion",
     "PaperPlan",
     "Plan",
+    "Polygon",
     "Replanner",
     "Scene",
-    "SceneFile",
+    "Segment",
+    "Task",
     "Verdict",
     "Violation",
     "World",
@@ -39,6 +50,7 @@ __all__ = [
     "plan_proposed",
     "planner_options",
     "planners_known",
+    "scene_again",
     "verdict_again",
     "verify",
 ]
@@ -47,26 +59,274 @@ ASSUMED_LIMITS: Mapping[str, float]
 TICK: float
 __version__: str
 
+class _Part:
+    """What all parts of a scene, and scenes, have in common as values."""
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __ne__(self, other: object, /) -> bool: ...
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, _memo: Any) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[()], dict[str, Any]]: ...
+    def __replace__(self, **changes: Any) -> Self: ...
+
 @final
-class Scene:
+class Joint(_Part):
     def __new__(
         cls,
         *,
-        arm: scene.Arm,
-        grid: scene.Grid,
-        obstacles: Sequence[scene.Obstacle],
-        tasks: Sequence[tuple[str, scene.Task]],
-    ) -> Scene: ...
-    def link_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def self_clearances(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
-    def link_ends(self, q: NDArray[np.float64]) -> NDArray[np.float64]: ...
+        continuous: bool = False,
+        min: float | None = None,
+        max: float | None = None,
+        velocity: float | None = None,
+        acceleration: float | None = None,
+        jerk: float | None = None,
+    ) -> Joint: ...
+    @property
+    def continuous(self) -> bool: ...
+    @property
+    def min(self) -> float | None: ...
+    @property
+    def max(self) -> float | None: ...
+    @property
+    def velocity(self) -> float | None: ...
+    @property
+    def acceleration(self) -> float | None: ...
+    @property
+    def jerk(self) -> float | None: ...
+    def replace(
+        self,
+        *,
+        continuous: bool = ...,
+        min: float | None = ...,
+        max: float | None = ...,
+        velocity: float | None = ...,
+        acceleration: float | None = ...,
+        jerk: float | None = ...,
+    ) -> Joint: ...
+    def __hash__(self) -> int: ...
 
 @final
-class SceneFile:
+class Arm(_Part):
+    def __new__(
+        cls,
+        *,
+        links: Sequence[float],
+        joints: Sequence[Joint],
+        half_width: float = 0.0,
+        base: Pair = ...,
+        self_collision: bool = False,
+    ) -> Arm: ...
+    @property
+    def links(self) -> tuple[float, ...]: ...
+    @property
+    def joints(self) -> tuple[Joint, ...]: ...
+    @property
+    def half_width(self) -> float: ...
+    @property
+    def base(self) -> Pair: ...
+    @property
+    def self_collision(self) -> bool: ...
+    def replace(
+        self,
+        *,
+        links: Sequence[float] = ...,
+        joints: Sequence[Joint] = ...,
+        half_width: float = ...,
+        base: Pair = ...,
+        self_collision: bool = ...,
+    ) -> Arm: ...
+    def __hash__(self) -> int: ...
+
+@final
+class Grid(_Part):
+    def __new__(cls, *, x: Pair, y: Pair, step: float) -> Grid: ...
+    @property
+    def x(self) -> Pair: ...
+    @property
+    def y(self) -> Pair: ...
+    @property
+    def step(self) -> float: ...
+    def replace(self, *, x: Pair = ..., y: Pair = ..., step: float = ...) -> Grid: ...
+    def __hash__(self) -> int: ...
+
+@final
+class ObstacleMotion(_Part):
+    def __new__(
+        cls,
+        *,
+        waypoints: Sequence[tuple[float, Pair]] | None = None,
+        velocity: Pair | None = None,
+        start: float = 0.0,
+        chases: bool = False,
+        keep_off: float = 0.0,
+        greatest_speed: float | None = None,
+        seen_from: float | None = None,
+        sensing_radius: float | None = None,
+    ) -> ObstacleMotion: ...
+    @property
+    def waypoints(self) -> tuple[tuple[float, Pair], ...] | None: ...
+    @property
+    def velocity(self) -> Pair | None: ...
+    @property
+    def start(self) -> float: ...
+    @property
+    def chases(self) -> bool: ...
+    @property
+    def keep_off(self) -> float: ...
+    @property
+    def greatest_speed(self) -> float | None: ...
+    @property
+    def seen_from(self) -> float | None: ...
+    @property
+    def sensing_radius(self) -> float | None: ...
+    def replace(
+        self,
+        *,
+        waypoints: Sequence[tuple[float, Pair]] | None = ...,
+        velocity: Pair | None = ...,
+        start: float = ...,
+        chases: bool = ...,
+        keep_off: float = ...,
+        greatest_speed: float | None = ...,
+        seen_from: float | None = ...,
+        sensing_radius: float | None = ...,
+    ) -> ObstacleMotion: ...
+    def __hash__(self) -> int: ...
+
+@disjoint_base
+class Obstacle(_Part):
+    @property
+    def name(self) -> str | None: ...
+    @property
+    def motion(self) -> ObstacleMotion | None: ...
+    @property
+    def outline(self) -> Outline: ...
+    def shifted(self, by: Pair) -> Self: ...
+    def replace(self, *, name: str | None = ..., motion: ObstacleMotion | None = ...) -> Self: ...
+    def __hash__(self) -> int: ...
+
+@final
+class Circle(Obstacle):
+    def __new__(
+        cls, *, center: Pair, radius: float, name: str | None = None, motion: ObstacleMotion | None = None
+    ) -> Circle: ...
+    @property
+    def center(self) -> Pair: ...
+    @property
+    def radius(self) -> float: ...
+    def replace(
+        self,
+        *,
+        center: Pair = ...,
+        radius: float = ...,
+        name: str | None = ...,
+        motion: ObstacleMotion | None = ...,
+    ) -> Self: ...
+
+@final
+class Segment(Obstacle):
+    def __new__(
+        cls,
+        *,
+        start: Pair,
+        end: Pair,
+        radius: float = 0.0,
+        name: str | None = None,
+        motion: ObstacleMotion | None = None,
+    ) -> Segment: ...
+    @property
+    def start(self) -> Pair: ...
+    @property
+    def end(self) -> Pair: ...
+    @property
+    def radius(self) -> float: ...
+    def replace(
+        self,
+        *,
+        start: Pair = ...,
+        end: Pair = ...,
+        radius: float = ...,
+        name: str | None = ...,
+        motion: ObstacleMotion | None = ...,
+    ) -> Self: ...
+
+@final
+class Polygon(Obstacle):
+    def __new__(
+        cls, *, vertices: Sequence[Pair], name: str | None = None, motion: ObstacleMotion | None = None
+    ) -> Polygon: ...
+    @property
+    def vertices(self) -> tuple[Pair, ...]: ...
+    def replace(
+        self, *, vertices: Sequence[Pair] = ..., name: str | None = ..., motion: ObstacleMotion | None = ...
+    ) -> Self: ...
+
+@final
+class Configuration(_Part):
+    def __new__(cls, q: Sequence[float]) -> Configuration: ...
+    @property
+    def q(self) -> tuple[float, ...]: ...
+    def replace(self, *, q: Sequence[float] = ...) -> Configuration: ...
+    def __hash__(self) -> int: ...
+
+@final
+class Task(_Part):
+    def __new__(cls, *, start: Place, goal: Place, posture: PostureWish = "any") -> Task: ...
+    @property
+    def start(self) -> Place: ...
+    @property
+    def goal(self) -> Place: ...
+    @property
+    def posture(self) -> PostureWish: ...
+    def replace(self, *, start: Place = ..., goal: Place = ..., posture: PostureWish = ...) -> Task: ...
+    def __hash__(self) -> int: ...
+
+@final
+class Scene(_Part):
+    def __new__(
+        cls,
+        *,
+        arm: Arm,
+        grid: Grid,
+        obstacles: Sequence[Obstacle] | None = None,
+        tasks: Mapping[str, Task] | None = None,
+    ) -> Scene: ...
     @staticmethod
-    def parse(text: str, file: str) -> SceneFile: ...
-    def location(self, task: str, end: str) -> tuple[int, int] | None: ...
-    def parts(self) -> dict[str, Any]: ...
+    def load(path: str | Path) -> Scene: ...
+    @staticmethod
+    def example(name: str) -> Scene: ...
+    @staticmethod
+    def parse(text: str, *, file: str = "scene") -> Scene: ...
+    @property
+    def arm(self) -> Arm: ...
+    @property
+    def grid(self) -> Grid: ...
+    @property
+    def obstacles(self) -> tuple[Obstacle, ...]: ...
+    @property
+    def tasks(self) -> Mapping[str, Task]: ...
+    @property
+    def file(self) -> str | None: ...
+    @property
+    def locations(self) -> dict[tuple[str, str], tuple[int, int]]: ...
+    @property
+    def sha256(self) -> str: ...
+    def replace(
+        self,
+        *,
+        arm: Arm = ...,
+        grid: Grid = ...,
+        obstacles: Sequence[Obstacle] | None = ...,
+        tasks: Mapping[str, Task] | None = ...,
+    ) -> Scene: ...
+    def link_clearances(self, q: ArrayLike) -> NDArray[np.float64]: ...
+    def self_clearances(self, q: ArrayLike) -> NDArray[np.float64]: ...
+    def link_ends(self, q: ArrayLike) -> NDArray[np.float64]: ...
+    def __reduce__(self) -> tuple[Any, ...]: ...
+
+def scene_again(
+    keywords: dict[str, Any], file: str | None, locations: dict[tuple[str, str], tuple[int, int]]
+) -> Scene: ...
 
 @final
 class FreeSpace:
@@ -252,12 +512,14 @@ class World:
     def advance(self, now: float, *, q: NDArray[np.float64]) -> None: ...
     @property
     def shifts(self) -> NDArray[np.float64]: ...
-    def known(self, *, q: NDArray[np.float64]) -> list[tuple[int, dict[str, Any] | None]]: ...
+    def known(
+        self, *, q: NDArray[np.float64]
+    ) -> list[tuple[int, ObstacleMotion | tuple[Pair, float, float] | None]]: ...
 
 @final
 class PaperPlan:
     @property
-    def scene(self) -> scene.Scene: ...
+    def scene(self) -> Scene: ...
     @property
     def task(self) -> str: ...
     @property
@@ -306,7 +568,7 @@ class PaperPlan:
     def jumps(self) -> list[tuple[int, str]]: ...
 
 def plan_as_in_paper(
-    scene: scene.Scene,
+    scene: Scene,
     task: str,
     *,
     swarm: bool,
@@ -321,7 +583,7 @@ def plan_as_in_paper(
 @final
 class Plan:
     @property
-    def scene(self) -> scene.Scene: ...
+    def scene(self) -> Scene: ...
     @property
     def task(self) -> str: ...
     @property
@@ -375,7 +637,7 @@ class Plan:
     def __reduce__(self) -> tuple[Any, ...]: ...
 
 def plan(
-    scene: scene.Scene,
+    scene: Scene,
     task: str,
     *,
     planner: str,
@@ -388,7 +650,7 @@ def plan(
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan: ...
 def plan_proposed(
-    scene: scene.Scene,
+    scene: Scene,
     task: str,
     *,
     planner: str,
@@ -404,10 +666,10 @@ def plan_proposed(
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan: ...
-def plan_again(scene: scene.Scene, motion: Motion, kept: Mapping[str, Any]) -> Plan: ...
+def plan_again(scene: Scene, motion: Motion, kept: Mapping[str, Any]) -> Plan: ...
 def gap(cost: float, lower_bound: float) -> float | None: ...
-def default_planner(scene: scene.Scene) -> str: ...
-def mismatch(scene: scene.Scene, task: str, motion: Motion, posture_changes: Sequence[float]) -> str | None: ...
+def default_planner(scene: Scene) -> str: ...
+def mismatch(scene: Scene, task: str, motion: Motion, posture_changes: Sequence[float]) -> str | None: ...
 def planner_options(planner: str, options: Sequence[tuple[str, int | str]]) -> dict[str, int | str]: ...
 def planners_known() -> list[tuple[str, dict[str, int | str], str | None]]: ...
 def interpolated(
@@ -417,12 +679,12 @@ def interpolated(
     accelerations: NDArray[np.float64] | None = None,
 ) -> tuple[Motion, str]: ...
 def verify(
-    scene: scene.Scene,
+    scene: Scene,
     motion: Motion,
     *,
     curve: str,
     margin: float,
     timeout: float | None = None,
 ) -> Check: ...
-def verdict_again(scene: scene.Scene, motion: Motion, curve: str, margin: float, safe: bool) -> Verdict: ...
+def verdict_again(scene: Scene, motion: Motion, curve: str, margin: float, safe: bool) -> Verdict: ...
 def check_again(verdict: Verdict) -> Check: ...

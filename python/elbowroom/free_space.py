@@ -58,7 +58,7 @@ def free_space(scene: Scene, *, timeout: float | None = None) -> FreeSpace:
     Raises:
         TimedOut: It took longer than ``timeout`` (s).
     """
-    space = _core.free_space(scene.core, timeout=timeout)
+    space = _core.free_space(scene, timeout=timeout)
     up, down = (FreeSpaceMap(posture, *space.states(i)) for i, posture in enumerate(("elbow-up", "elbow-down")))
     rows, columns = up.state.shape
     return FreeSpace(

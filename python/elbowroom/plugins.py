@@ -64,7 +64,7 @@ class PlannerPlugin(Protocol):
         """Return a trajectory for ``task`` of ``scene``.
 
         Args:
-            scene: Arm and obstacles; ``scene.core.link_clearances(q)`` gives exact clearances.
+            scene: Arm and obstacles; ``scene.link_clearances(q)`` gives exact clearances.
             task: The name of one of its tasks.
             seed: Same seed, same answer.
             timeout: When to give up (s); ``compare`` ends a planner that is still at it 10 s later.

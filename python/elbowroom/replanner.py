@@ -99,7 +99,7 @@ class Replanner:
         self.seed = seed
         start = None if q is None else joint_values("q", q)
         try:
-            self._core = _core.Replanner(scene.core, self.task, seed=seed, q=start)
+            self._core = _core.Replanner(scene, self.task, seed=seed, q=start)
         except NotFree as error:
             raise (located(scene, error) if q is None or error.end == "goal" else error) from None
 
@@ -150,7 +150,7 @@ class Replanner:
         begun = time.perf_counter()
         position = joint_values("q", q)
         decision, motion, reaches_goal, verdict = self._core.update(
-            self.scene.core,
+            self.scene,
             all_known(self.scene, known or {}),
             now=now,
             q=position,

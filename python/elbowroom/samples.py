@@ -40,7 +40,7 @@ def sampled(scene: Scene, motion: Motion, t: ArrayLike) -> Samples:
     """
     times = np.ascontiguousarray(np.atleast_1d(t), dtype=np.float64)
     q, v, a, j = motion.sample(times)
-    return Samples(times, q, v, a, j, scene.core.link_ends(q))
+    return Samples(times, q, v, a, j, scene.link_ends(q))
 
 
 def every(scene: Scene, motion: Motion, period: float) -> Samples:

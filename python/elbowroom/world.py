@@ -11,7 +11,7 @@ from elbowroom import _core
 from elbowroom.errors import BadSetting
 from elbowroom.known import Known, Sighting
 from elbowroom.samples import Floats
-from elbowroom.scene import ObstacleMotion, Scene
+from elbowroom.scene import Pair, Scene
 
 
 class World:
@@ -23,7 +23,7 @@ class World:
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
-        self._core = _core.World(scene.core)
+        self._core = _core.World(scene)
 
     @property
     def now(self) -> float:
@@ -53,11 +53,11 @@ class World:
             BadSetting: ``q`` is no configuration.
         """
         found = self._core.known(q=joint_values("q", q))
-        return {index: None if part is None else _known(part) for index, part in found}
+        return {index: _sighting(*part) if isinstance(part, tuple) else part for index, part in found}
 
 
-def _known(part: dict[str, object]) -> Known:
-    return (Sighting if "time" in part else ObstacleMotion)(**part)  # type: ignore[arg-type]
+def _sighting(shift: Pair, time: float, greatest_speed: float) -> Sighting:
+    return Sighting(shift=shift, time=time, greatest_speed=greatest_speed)
 
 
 def joint_values(name: str, values: ArrayLike) -> Floats:

@@ -9,7 +9,8 @@ use pyo3::types::PyTuple;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::verdict::{Asked, Verdict, core_of};
+use crate::scene::Scene;
+use crate::verdict::{Asked, Verdict};
 use crate::watch;
 
 /// What was taken between the rows of a trajectory, and so what must not jump between the pieces.
@@ -168,28 +169,27 @@ pub(crate) fn interpolated(
 #[pyo3(signature = (scene, motion, *, curve, margin, timeout=None))]
 pub(crate) fn verify(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     motion: Py<Motion>,
     curve: &str,
     margin: f64,
     timeout: Option<f64>,
 ) -> PyResult<Check> {
     let curve = Curve::named(py, curve)?;
-    let verdict = judged(py, scene, motion.get(), curve, margin, timeout)?;
+    let verdict = judged(py, &scene, motion.get(), curve, margin, timeout)?;
     Ok(Check { motion, curve, verdict: Py::new(py, verdict)? })
 }
 
 /// The verdict on `motion` in `scene`.
 pub(crate) fn judged(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: &Py<Scene>,
     motion: &Motion,
     curve: Curve,
     margin: f64,
     timeout: Option<f64>,
 ) -> PyResult<Verdict> {
-    let core = core_of(scene)?;
-    let core = core.get();
+    let core = scene.get();
     let motion = &motion.motion;
     let (joints, moved) = (core.scene.arm().links(), motion.joints());
     if joints != moved {
@@ -210,7 +210,7 @@ pub(crate) fn judged(
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));
     }
-    let asked = Asked { scene: scene.clone().unbind(), motion: Arc::clone(motion), curve, margin };
+    let asked = Asked { scene: scene.clone_ref(py), motion: Arc::clone(motion), curve, margin };
     Ok(Verdict::new(core, &found, Some(asked)))
 }
 

@@ -13,7 +13,6 @@ mod plan_kept;
 mod planning;
 mod proposed;
 mod scene;
-mod scene_parts;
 mod verdict;
 mod verdict_parts;
 mod watch;
@@ -42,7 +41,7 @@ mod _core {
     #[pymodule_export]
     use super::proposed::plan_proposed;
     #[pymodule_export]
-    use super::scene::{Scene, SceneFile};
+    use super::scene::{Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task, scene_again};
     #[pymodule_export]
     use super::verdict::{Verdict, verdict_again};
     #[pymodule_export]
@@ -52,6 +51,7 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        super::scene::add_shapes(module)?;
         module.add("TICK", elbowroom::trajectory::TICK)?;
         module.add("ASSUMED_LIMITS", super::planning::assumed_limits(module.py())?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))

@@ -1,11 +1,11 @@
-//! Arrays that are made when they are first asked for.
+//! What is made when it is first asked for.
 
 use numpy::ndarray::{Array, Dimension};
 use numpy::{IntoPyArray, PyArray, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
-/// An array made once, that nobody can write to: everyone who asks is handed the same.
+/// A value made once, that nobody can write to: everyone who asks is handed the same.
 pub(crate) struct Once<A>(PyOnceLock<Py<A>>);
 
 impl<A> Once<A> {
@@ -26,5 +26,16 @@ impl<D: Dimension> Once<PyArray<f64, D>> {
             array.unbind()
         });
         made.bind(py).clone()
+    }
+}
+
+impl<A> Once<A> {
+    /// The value, of any kind that cannot be written to or is not handed out itself.
+    pub(crate) fn made<'py>(
+        &self,
+        py: Python<'py>,
+        make: impl FnOnce() -> PyResult<Bound<'py, A>>,
+    ) -> PyResult<Bound<'py, A>> {
+        self.0.get_or_try_init(py, || make().map(Bound::unbind)).map(|made| made.bind(py).clone())
     }
 }

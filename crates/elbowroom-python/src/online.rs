@@ -4,19 +4,19 @@ use std::sync::Mutex;
 
 use elbowroom::arm::Posture;
 use elbowroom::free_space::configurations;
+use elbowroom::geometry::Vector;
 use elbowroom::online::{self, Decision, KnownMotion};
 use elbowroom::planning::Monitor;
-use elbowroom::scene::{self, Course, ObstacleMotion, Place, Task, TaskPosture};
+use elbowroom::scene::{self, Course, Place, Sight, Task, TaskPosture};
 use elbowroom::trajectory::State;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList};
+use pyo3::types::PyList;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::scene::{Scene, motion_parts};
-use crate::scene_parts::KnownPart;
+use crate::scene::{ObstacleMotion, Scene};
 use crate::verdict::Verdict;
 use crate::watch;
 
@@ -97,7 +97,7 @@ impl Replanner {
         &self,
         py: Python<'py>,
         scene: &Scene,
-        known: Vec<(usize, Option<KnownPart>)>,
+        known: Vec<(usize, Option<KnownPart<'py>>)>,
         now: f64,
         q: PyReadonlyArray1<'py, f64>,
         v: PyReadonlyArray1<'py, f64>,
@@ -173,38 +173,71 @@ impl World {
     }
 
     /// Return what the arm, which is at ``q`` (rad), knows of each obstacle that moves: its place among the scene's
-    /// obstacles, and its course or where it is seen; ``None`` for one that it knows nothing of.
+    /// obstacles, and its course, or where it is seen: shift (m), time (s) and greatest speed (m/s); ``None`` for one that
+    /// it knows nothing of.
     #[pyo3(signature = (*, q))]
     fn known<'py>(
         &self,
         py: Python<'py>,
         q: PyReadonlyArray1<'_, f64>,
-    ) -> PyResult<Vec<(usize, Option<Bound<'py, PyDict>>)>> {
+    ) -> PyResult<Vec<(usize, Option<Seen<'py>>)>> {
         let seen = self.0.seen_from(&pair(py, "q", &q)?);
-        seen.iter().map(|known| Ok((known.obstacle, known_parts(py, &known.motion)?))).collect()
+        seen.iter().map(|known| Ok((known.obstacle, Seen::of(py, &known.motion)?))).collect()
     }
 }
 
-/// What is known of an obstacle's motion, with the names of the dataclasses' fields.
-fn known_parts<'py>(py: Python<'py>, motion: &ObstacleMotion) -> PyResult<Option<Bound<'py, PyDict>>> {
-    match motion.course() {
-        Course::Absent => Ok(None),
-        Course::Unknown { seen, shift } => {
-            let part = PyDict::new(py);
-            part.set_item("time", seen)?;
-            part.set_item("shift", (shift.x, shift.y))?;
-            part.set_item("greatest_speed", motion.greatest_speed())?;
-            Ok(Some(part))
-        }
-        _ => {
-            let part = motion_parts(py, motion)?;
-            // The arm knows of it now, however that came about.
-            for sight in ["seen_from", "sensing_radius"] {
-                if part.contains(sight)? {
-                    part.del_item(sight)?;
-                }
+/// What is known of an obstacle that moves, to Python.
+#[derive(IntoPyObject)]
+enum Seen<'py> {
+    Course(Bound<'py, ObstacleMotion>),
+    Sighting((f64, f64), f64, f64),
+}
+
+impl<'py> Seen<'py> {
+    fn of(py: Python<'py>, motion: &scene::ObstacleMotion) -> PyResult<Option<Self>> {
+        let speed = motion.greatest_speed();
+        match motion.course() {
+            Course::Absent => Ok(None),
+            Course::Unknown { seen, shift } => Ok(Some(Self::Sighting((shift.x, shift.y), *seen, speed))),
+            course => {
+                // The arm knows of it now, however that came about.
+                let known = scene::ObstacleMotion::new(course.clone(), Sight::Always, Some(speed));
+                let known = known.map_err(|error| errors::internal(py, &error.to_string()))?;
+                ObstacleMotion::of(py, known).map(|known| Some(Self::Course(known)))
             }
-            Ok(Some(part))
+        }
+    }
+}
+
+/// What is known of an obstacle that moves, from Python: its course, or an `elbowroom.known.Sighting`.
+#[derive(FromPyObject)]
+enum KnownPart<'py> {
+    Course(Bound<'py, ObstacleMotion>),
+    Sighting { shift: [f64; 2], time: f64, greatest_speed: Option<f64> },
+}
+
+impl KnownPart<'_> {
+    /// The obstacle that the scene declares to move as `declared`, as it is known.
+    fn motion(
+        self,
+        py: Python<'_>,
+        index: usize,
+        declared: &scene::ObstacleMotion,
+    ) -> PyResult<scene::ObstacleMotion> {
+        let refused = |message: &str| errors::setting(py, "known", &format!("known[{index}]: {message}"));
+        match self {
+            Self::Course(known) => match known.get().motion() {
+                motion if matches!(motion.course(), Course::Chase { .. }) => {
+                    Err(refused("nobody knows the course of what chases; a Sighting says where it was seen"))
+                }
+                motion => Ok(motion.clone()),
+            },
+            Self::Sighting { shift: [x, y], time, greatest_speed } => {
+                let course = Course::Unknown { seen: time, shift: Vector::new(x, y) };
+                let speed = greatest_speed.unwrap_or_else(|| declared.greatest_speed());
+                scene::ObstacleMotion::new(course, Sight::Always, Some(speed))
+                    .map_err(|error| refused(&error.to_string()))
+            }
         }
     }
 }
@@ -214,7 +247,7 @@ fn known_motion(
     py: Python<'_>,
     scene: &scene::Scene,
     index: usize,
-    part: Option<KnownPart>,
+    part: Option<KnownPart<'_>>,
 ) -> PyResult<KnownMotion> {
     let obstacles = scene.obstacles();
     let Some(declared) = obstacles.get(index).and_then(|obstacle| obstacle.motion.as_ref()) else {
@@ -226,10 +259,11 @@ fn known_motion(
         );
         return Err(errors::setting(py, "known", &message));
     };
-    match part {
-        Some(part) => part.build(py, index, declared),
-        None => Ok(KnownMotion { obstacle: index, motion: declared.on(Course::Absent) }),
-    }
+    let motion = match part {
+        Some(part) => part.motion(py, index, declared)?,
+        None => declared.on(Course::Absent),
+    };
+    Ok(KnownMotion { obstacle: index, motion })
 }
 
 /// The goal of `task`, in the posture it asks for.

@@ -11,8 +11,8 @@ use pyo3::types::PyDict;
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Question, Setting, every, in_order, sampled};
-use crate::scene::points;
-use crate::verdict::{Verdict, core_of};
+use crate::scene::Scene;
+use crate::verdict::Verdict;
 use crate::watch;
 use crate::words::short;
 
@@ -31,7 +31,7 @@ pub(crate) struct PaperPlan {
 impl PaperPlan {
     /// What it was planned in.
     #[getter]
-    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
         self.asked.scene.clone_ref(py)
     }
 
@@ -204,7 +204,7 @@ impl PaperPlan {
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan_as_in_paper(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     task: &str,
     swarm: bool,
     seed: u64,
@@ -214,8 +214,7 @@ pub(crate) fn plan_as_in_paper(
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PaperPlan> {
-    let core = core_of(scene)?;
-    let core = core.get();
+    let core = scene.get();
     let asked = core.task(py, task)?;
     let method = if swarm {
         Method::DstarPso(GuidedSwarmSettings { candidates, ..GuidedSwarmSettings::default() })
@@ -235,7 +234,7 @@ pub(crate) fn plan_as_in_paper(
         settings.push(("candidates".to_owned(), Setting::Count(candidates)));
     }
     let question = Question {
-        scene: scene.clone().unbind(),
+        scene: scene.clone_ref(py),
         task: task.to_owned(),
         planner: if swarm { "dstar-pso" } else { "dstar" }.to_owned(),
         settings,
@@ -247,7 +246,8 @@ pub(crate) fn plan_as_in_paper(
 }
 
 fn tips<'py>(py: Python<'py>, path: &TipPath) -> Bound<'py, PyArray2<f64>> {
-    points(py, path.0.iter().map(|p| [p.x, p.y]))
+    let pairs: Vec<[f64; 2]> = path.0.iter().map(|p| [p.x, p.y]).collect();
+    Array2::from(pairs).into_pyarray(py)
 }
 
 /// An array of shape (n, joints).

@@ -10,7 +10,8 @@ use crate::check::Curve;
 use crate::motion::Motion;
 use crate::once::Once;
 use crate::plan_kept;
-use crate::verdict::{Asked, Verdict, core_of};
+use crate::scene::Scene;
+use crate::verdict::{Asked, Verdict};
 use crate::words::short;
 
 /// What a planner found for a task: a motion that is proved to be safe in its scene, and how it came to be.
@@ -31,7 +32,7 @@ pub(crate) struct Plan {
 
 /// What a planner was asked.
 pub(crate) struct Question {
-    pub(crate) scene: Py<PyAny>,
+    pub(crate) scene: Py<Scene>,
     pub(crate) task: String,
     pub(crate) planner: String,
     pub(crate) settings: Vec<(String, Setting)>,
@@ -72,7 +73,6 @@ impl Plan {
         plan: planning::Plan,
         timings: Vec<(String, f64)>,
     ) -> PyResult<Self> {
-        let core = core_of(asked.scene.bind(py))?;
         let motion = Motion::from(plan.trajectory().motion().clone());
         let judged = Asked {
             scene: asked.scene.clone_ref(py),
@@ -80,7 +80,7 @@ impl Plan {
             curve: Curve::Quintic,
             margin: 0.0,
         };
-        let verdict = Verdict::new(core.get(), plan.trajectory().verdict(), Some(judged));
+        let verdict = Verdict::new(asked.scene.get(), plan.trajectory().verdict(), Some(judged));
         Ok(Self {
             asked,
             plan,
@@ -97,7 +97,7 @@ impl PartialEq for Plan {
     fn eq(&self, other: &Self) -> bool {
         self.plan == other.plan
             && self.asked.same_but_scene(&other.asked)
-            && Python::attach(|py| self.asked.scene.bind(py).eq(&other.asked.scene).unwrap_or(false))
+            && self.asked.scene.get() == other.asked.scene.get()
     }
 }
 
@@ -105,7 +105,7 @@ impl PartialEq for Plan {
 impl Plan {
     /// What it was planned in.
     #[getter]
-    fn scene(&self, py: Python<'_>) -> Py<PyAny> {
+    fn scene(&self, py: Python<'_>) -> Py<Scene> {
         self.asked.scene.clone_ref(py)
     }
 
@@ -301,7 +301,7 @@ pub(crate) fn in_order<'py>(py: Python<'py>, timings: &[(String, f64)]) -> PyRes
 /// `elbowroom.samples.sampled`.
 pub(crate) fn sampled<'py>(
     py: Python<'py>,
-    scene: &Py<PyAny>,
+    scene: &Py<Scene>,
     motion: &Py<Motion>,
     t: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -311,7 +311,7 @@ pub(crate) fn sampled<'py>(
 /// `elbowroom.samples.every`.
 pub(crate) fn every<'py>(
     py: Python<'py>,
-    scene: &Py<PyAny>,
+    scene: &Py<Scene>,
     motion: &Py<Motion>,
     period: f64,
 ) -> PyResult<Bound<'py, PyAny>> {

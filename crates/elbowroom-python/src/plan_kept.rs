@@ -9,7 +9,8 @@ use pyo3::prelude::*;
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
-use crate::verdict::{Verdict, core_of, refuted};
+use crate::scene::Scene;
+use crate::verdict::{Verdict, refuted};
 use crate::watch;
 
 /// What is kept of a plan besides its scene and its motion: a dictionary in Python.
@@ -65,14 +66,8 @@ impl Kept {
 ///     Refuted: The motion is not safe, or its cost is not what was kept.
 ///     BadSetting: What was kept is no plan.
 #[pyfunction]
-pub(crate) fn plan_again(
-    py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
-    motion: &Motion,
-    kept: Kept,
-) -> PyResult<Plan> {
-    let core = core_of(scene)?;
-    let core = core.get();
+pub(crate) fn plan_again(py: Python<'_>, scene: Py<Scene>, motion: &Motion, kept: Kept) -> PyResult<Plan> {
+    let core = scene.get();
     let task = core.task(py, &kept.task)?;
     let Some(objective) = Objective::ALL.into_iter().find(|known| known.name() == kept.objective) else {
         return Err(errors::setting(py, "objective", "the plan was kept with no objective that there is"));
@@ -106,7 +101,7 @@ pub(crate) fn plan_again(
         _ => errors::refuted(py, &error.to_string(), None),
     })?;
     let asked = Question {
-        scene: scene.clone().unbind(),
+        scene,
         task: kept.task,
         planner: kept.planner,
         settings: kept.settings,

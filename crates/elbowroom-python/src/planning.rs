@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
-use crate::verdict::core_of;
+use crate::scene::Scene;
 use crate::watch;
 
 /// The value of a planner's option as Python has it.
@@ -40,8 +40,8 @@ pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
 
 /// Return the name of the planner to take for the arm of ``scene`` where none is asked for.
 #[pyfunction]
-pub(crate) fn default_planner(scene: &Bound<'_, PyAny>) -> PyResult<String> {
-    Ok(planners::default_for(core_of(scene)?.get().scene.arm()).name().to_owned())
+pub(crate) fn default_planner(scene: &Scene) -> String {
+    planners::default_for(scene.scene.arm()).name().to_owned()
 }
 
 /// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.
@@ -88,7 +88,7 @@ fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) ->
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     task: &str,
     planner: &str,
     objective: &str,
@@ -99,8 +99,7 @@ pub(crate) fn plan(
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
-    let core = core_of(scene)?;
-    let core = core.get();
+    let core = scene.get();
     let asked = core.task(py, task)?;
     let objective = objective_called(py, objective)?;
     let planner = by_name(py, planner, options)?;
@@ -110,7 +109,7 @@ pub(crate) fn plan(
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
     let question = Question {
-        scene: scene.clone().unbind(),
+        scene: scene.clone_ref(py),
         task: task.to_owned(),
         planner: planner.name().to_owned(),
         settings: told(&*planner, &settings),
@@ -156,13 +155,12 @@ impl From<OptionValue> for Setting {
 #[pyfunction]
 pub(crate) fn mismatch(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     task: &str,
     motion: &Motion,
     posture_changes: Vec<f64>,
 ) -> PyResult<Option<String>> {
-    let core = core_of(scene)?;
-    let core = core.get();
+    let core = scene.get();
     let found = planning::mismatch(&core.scene, core.task(py, task)?, &motion.motion, &posture_changes);
     Ok(found.map(|mismatch| mismatch.to_string()))
 }

@@ -14,7 +14,7 @@ use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
 use crate::planning::{objective_called, told};
-use crate::verdict::core_of;
+use crate::scene::Scene;
 use crate::watch;
 
 /// A planner that has planned already.
@@ -66,7 +66,7 @@ impl Planner for Proposer {
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan_proposed(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     task: &str,
     planner: String,
     settings: Vec<(String, Setting)>,
@@ -81,8 +81,7 @@ pub(crate) fn plan_proposed(
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
-    let core = core_of(scene)?;
-    let core = core.get();
+    let core = scene.get();
     let asked = core.task(py, task)?;
     let objective = objective_called(py, objective)?;
     let proposed = match (motion, configurations) {
@@ -107,7 +106,7 @@ pub(crate) fn plan_proposed(
     let mut all = told(&proposer, &plan_settings);
     all.extend(settings);
     let question = Question {
-        scene: scene.clone().unbind(),
+        scene: scene.clone_ref(py),
         task: task.to_owned(),
         planner: proposer.name,
         settings: all,

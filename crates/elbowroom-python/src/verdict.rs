@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::check::{self, Curve};
 use crate::errors;
 use crate::motion::Motion;
-use crate::scene::{self, Scene};
+use crate::scene::Scene;
 use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
 use crate::words::short;
 
@@ -34,9 +34,9 @@ struct Found {
     posture_changes: Vec<f64>,
 }
 
-/// A motion to be judged, in what Python holds as a scene.
+/// A motion to be judged.
 pub(crate) struct Asked {
-    pub(crate) scene: Py<PyAny>,
+    pub(crate) scene: Py<Scene>,
     pub(crate) motion: Arc<trajectory::Motion>,
     pub(crate) curve: Curve,
     /// Clearance to keep (m).
@@ -177,13 +177,13 @@ impl Verdict {
 #[pyfunction]
 pub(crate) fn verdict_again(
     py: Python<'_>,
-    scene: &Bound<'_, PyAny>,
+    scene: Py<Scene>,
     motion: &Motion,
     curve: &str,
     margin: f64,
     safe: bool,
 ) -> PyResult<Verdict> {
-    let verdict = check::judged(py, scene, motion, Curve::named(py, curve)?, margin, None)?;
+    let verdict = check::judged(py, &scene, motion, Curve::named(py, curve)?, margin, None)?;
     if safe && !verdict.safe() {
         return Err(refuted(py, "the motion was kept as safe", verdict));
     }
@@ -198,9 +198,4 @@ pub(crate) fn refuted(py: Python<'_>, what: &str, verdict: Verdict) -> PyErr {
         Ok(verdict) => errors::refuted(py, &message, Some(verdict)),
         Err(error) => error,
     }
-}
-
-/// The scene of the core in what Python holds as a scene.
-pub(crate) fn core_of<'py>(scene: &Bound<'py, PyAny>) -> PyResult<Bound<'py, scene::Scene>> {
-    Ok(scene.getattr("core")?.cast_into::<scene::Scene>()?)
 }

@@ -183,8 +183,8 @@ def _asked(
         problems = [
             Problem.of(
                 choice,
-                scene=str(path),
-                content=text.encode(),
+                scene=scene,
+                file=str(path),
                 task=task,
                 seed=seed,
                 budget=budget,

@@ -163,5 +163,5 @@ def _free(scene: Scene, x: float, y: float) -> bool:
         return False
     # Links of equal length: the first is half the bend off the straight way to the tip.
     q = np.array([[math.atan2(y, x) - sign * bend / 2.0, sign * bend] for sign in (-1.0, 1.0)])
-    clearances = scene.core.link_clearances(q)
+    clearances = scene.link_clearances(q)
     return bool(clearances.min(axis=1).max() > ROOM)

@@ -95,11 +95,11 @@ def _task(
     # Rounded before they are judged: what is free is what the file says.
     drawn = np.round(drawn, 1) + 0.0
     q = np.radians(drawn)
-    clear = np.minimum(scene.core.link_clearances(q).min(axis=1), scene.core.self_clearances(q))
+    clear = np.minimum(scene.link_clearances(q).min(axis=1), scene.self_clearances(q))
     free = np.flatnonzero(clear > ROOM)
     if not free.size:
         return None
-    tips = scene.core.link_ends(q[free])[:, -1]
+    tips = scene.link_ends(q[free])[:, -1]
     far = np.flatnonzero(np.hypot(*(tips - tips[0]).T) >= APART)
     return (drawn[free[0]], drawn[free[far[0]]]) if far.size else None
 

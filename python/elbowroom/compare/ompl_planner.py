@@ -160,7 +160,7 @@ class _WholeMotions(ob.MotionValidator):  # type: ignore[misc]
 
 def clearance(scene: Scene, q: Floats) -> float:
     """Return how far the arm is from the nearest obstacle, and from itself where that counts (m)."""
-    return float(min(scene.core.link_clearances(q[None]).min(), scene.core.self_clearances(q[None])[0]))
+    return float(min(scene.link_clearances(q[None]).min(), scene.self_clearances(q[None])[0]))
 
 
 def configurations(scene: Scene, place: Place, posture: str = "any") -> list[Floats]:

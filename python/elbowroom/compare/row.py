@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 from collections.abc import Mapping, Sequence
@@ -15,6 +14,7 @@ from elbowroom._core import __version__
 from elbowroom.errors import ElbowroomError
 from elbowroom.planners import Choice
 from elbowroom.plugins import Objective, Option
+from elbowroom.scene import Scene
 
 Failure = Literal[
     "no_path",
@@ -67,22 +67,22 @@ class Problem(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
         cls,
         choice: Choice,
         *,
-        scene: str,
-        content: bytes,
+        scene: Scene,
+        file: str,
         task: str,
         seed: int,
         budget: int | None,
         timeout: float | None,
         objective: Objective,
     ) -> Problem:
-        """Return the run of ``choice`` on the scene file ``scene`` with that ``content``.
+        """Return the run of ``choice`` on the ``scene`` that ``file`` holds.
 
         Raises:
             BadSetting: The budget, and an option that stands for it, are given as different numbers.
         """
         return cls(
-            scene=scene,
-            scene_sha256=hashlib.sha256(content).hexdigest(),
+            scene=file,
+            scene_sha256=scene.sha256,
             task=task,
             planner=choice.label,
             settings=choice.settings_under(budget),

@@ -18,12 +18,12 @@ def clearance_curve(plan: AnyPlan) -> Figure:
     figure, axes = new_figure(width=6.4 if links == 2 else 7.4, height=3.4 if links <= 8 else 4.2)
     t = np.linspace(0.0, plan.motion.duration, 4001)
     q = plan.at(t).q
-    clearance = plan.scene.core.link_clearances(q) * 1e3
+    clearance = plan.scene.link_clearances(q) * 1e3
     for link, colour in enumerate(link_colours(links)):
         if np.isfinite(clearance[:, link]).any():
             dash = DASHES[link % len(DASHES)]
             axes.plot(t, clearance[:, link], color=colour, linestyle=dash, linewidth=1.8, label=f"link {link + 1}")
-    between = plan.scene.core.self_clearances(q) * 1e3
+    between = plan.scene.self_clearances(q) * 1e3
     if np.isfinite(between).any():
         axes.plot(t, between, color=INK, linestyle=(0, (1, 1)), linewidth=2.2, label="between links")
     least = plan.verdict.least_clearance if plan.verdict is not None else None

@@ -77,7 +77,7 @@ def configuration_space(plan: AnyPlan) -> Figure:
 def draw_contacts(axes: Axes, scene: Scene, ranges: list[tuple[float, float]]) -> None:
     """Draw what is in contact and where the stops are, for joints within ``ranges`` (rad)."""
     q1, q2 = np.meshgrid(*(np.linspace(low, high, POINTS) for low, high in ranges))
-    clearance = scene.core.link_clearances(np.column_stack([q1.ravel(), q2.ravel()])).min(axis=1).reshape(q1.shape)
+    clearance = scene.link_clearances(np.column_stack([q1.ravel(), q2.ravel()])).min(axis=1).reshape(q1.shape)
     left, right, bottom, top = np.degrees([*ranges[0], *ranges[1]])
     axes.imshow(
         clearance <= 0.0,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -116,7 +115,7 @@ def animate(followed: Followed, path: Path) -> Path:
     scene = followed.true_scene
     still = [obstacle for obstacle in scene.obstacles if obstacle.motion is None]
     figure, axes = plane(
-        f"task '{followed.task}' at {followed.rate:g} updates a second", replace(scene, obstacles=still)
+        f"task '{followed.task}' at {followed.rate:g} updates a second", scene.replace(obstacles=still)
     )
     figure.set_dpi(80)
     start, goal = samples.tip[0], Goal.of(followed.scene, followed.task).tip

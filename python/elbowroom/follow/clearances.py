@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from elbowroom.follow.courses import shifted, shifts
@@ -23,10 +21,10 @@ def clearances(followed: Followed) -> dict[str, Floats]:
             places = shifts(obstacle.motion, samples.t).tolist()
             found[obstacle.name or f"obstacle {i}"] = np.array(
                 [
-                    replace(scene, obstacles=[shifted(obstacle, (x, y))], tasks={}).core.link_clearances(q).min()
+                    scene.replace(obstacles=[shifted(obstacle, (x, y))], tasks={}).link_clearances(q).min()
                     for (x, y), q in zip(places, samples.q[:, np.newaxis], strict=True)
                 ]
             )
     if still:
-        found["standing obstacles"] = replace(scene, obstacles=still).core.link_clearances(samples.q).min(axis=1)
+        found["standing obstacles"] = scene.replace(obstacles=still).link_clearances(samples.q).min(axis=1)
     return found

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -25,7 +24,7 @@ def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
 
 def shifted(obstacle: Obstacle, by: Pair) -> Obstacle:
     """Return ``obstacle`` standing still, shifted by so much (m)."""
-    return replace(obstacle.shifted(by), motion=None)
+    return obstacle.shifted(by).replace(motion=None)
 
 
 def middle(obstacle: Obstacle) -> Floats:
@@ -40,8 +39,8 @@ def as_recorded(scene: Scene, recorded: Mapping[int, Sequence[tuple[float, Pair]
     obstacles = list(scene.obstacles)
     for index, points in recorded.items():
         motion = ObstacleMotion(waypoints=_without_needless(points))
-        obstacles[index] = replace(obstacles[index], motion=motion)
-    return replace(scene, obstacles=tuple(obstacles))
+        obstacles[index] = obstacles[index].replace(motion=motion)
+    return scene.replace(obstacles=tuple(obstacles))
 
 
 def _without_needless(points: Sequence[tuple[float, Pair]]) -> list[tuple[float, Pair]]:

@@ -28,7 +28,7 @@ class Goal:
         asked = scene.tasks[task]
         tip = asked.goal
         if isinstance(tip, Configuration):
-            x, y = scene.core.link_ends(np.array([tip.q], dtype=np.float64))[0, -1].tolist()
+            x, y = scene.link_ends(np.array([tip.q], dtype=np.float64))[0, -1].tolist()
             tip = (x, y)
         return cls(tip, asked.goal, asked.posture, tuple(scene.arm.joints))
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from elbowroom import figures
@@ -77,7 +76,7 @@ def _try(
         if dstar is not None:
             break
         without_path.append(scene.grid.step)
-        scene = replace(scene, grid=replace(scene.grid, step=step))
+        scene = scene.replace(grid=scene.grid.replace(step=step))
         tell(f"{name}: task {task.name} on a {step * 100:g} cm grid")
         dstar = _plan_or_none(scene, task, planner_seed=seed, planner="dstar")
     if dstar is None:

@@ -1,0 +1,142 @@
+use elbowroom::arm;
+use elbowroom::scene::{self, Place, TaskPosture};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use super::part::{Keywords, NewArgs, Part, hash_of, made, number, pair, point};
+use crate::errors;
+
+/// What they are called.
+const POSTURES: [(&str, TaskPosture); 4] = [
+    ("up", TaskPosture::Up),
+    ("down", TaskPosture::Down),
+    ("any", TaskPosture::Any),
+    ("keep", TaskPosture::Keep),
+];
+
+/// Joint angles: a start or goal given by the joints.
+///
+/// Args:
+///     q: One each, base first (rad).
+#[pyclass(frozen, eq, extends = Part, module = "elbowroom._core")]
+#[derive(PartialEq)]
+pub(crate) struct Configuration {
+    q: arm::Configuration,
+}
+
+#[pymethods]
+impl Configuration {
+    #[new]
+    fn new(q: Vec<f64>) -> PyClassInitializer<Self> {
+        made(Self { q: q.into() })
+    }
+
+    /// One angle each, base first (rad).
+    #[getter]
+    fn q<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.q.iter().copied().map(number).collect::<Vec<_>>())
+    }
+
+    fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
+        hash_of(slf)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<NewArgs<'py>> {
+        Ok(Keywords::new(py).with("q", self.q(py)?)?.told())
+    }
+}
+
+/// A motion that is asked for, and the postures that will do.
+///
+/// Args:
+///     start: Where the arm is: a place of the tip (m), or a ``Configuration``.
+///     goal: Where it shall be, the same.
+///     posture: ``up`` or ``down`` at the goal, ``any``, or ``keep`` for that of the start all along.
+///
+/// Raises:
+///     SceneError: There is no such posture.
+#[pyclass(frozen, eq, extends = Part, module = "elbowroom._core")]
+#[derive(PartialEq)]
+pub(crate) struct Task {
+    start: Place,
+    goal: Place,
+    posture: TaskPosture,
+}
+
+impl Task {
+    pub(crate) fn of<'py>(py: Python<'py>, task: &scene::Task) -> PyResult<Bound<'py, Self>> {
+        let (start, goal) = (task.start.clone(), task.goal.clone());
+        Bound::new(py, made(Self { start, goal, posture: task.posture }))
+    }
+
+    /// The task as the scene has it.
+    pub(crate) fn called(&self, name: String) -> scene::Task {
+        scene::Task { name, start: self.start.clone(), goal: self.goal.clone(), posture: self.posture }
+    }
+}
+
+#[pymethods]
+impl Task {
+    #[new]
+    #[pyo3(signature = (*, start, goal, posture="any"))]
+    fn new(
+        py: Python<'_>,
+        start: &Bound<'_, PyAny>,
+        goal: &Bound<'_, PyAny>,
+        posture: &str,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let Some((_, posture)) = POSTURES.into_iter().find(|(name, _)| *name == posture) else {
+            let message = format!("'{posture}'; up, down, any or keep");
+            return Err(errors::part(py, "task.posture", &message));
+        };
+        Ok(made(Self { start: place(start, "start")?, goal: place(goal, "goal")?, posture }))
+    }
+
+    /// Where the arm is: a place of the tip (m), or a ``Configuration``.
+    #[getter]
+    fn start<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shown(py, &self.start)
+    }
+
+    /// Where it shall be: a place of the tip (m), or a ``Configuration``.
+    #[getter]
+    fn goal<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        shown(py, &self.goal)
+    }
+
+    /// Which postures will do: ``up``, ``down``, ``any`` or ``keep``.
+    #[getter]
+    fn posture(&self) -> &'static str {
+        POSTURES.into_iter().find(|(_, known)| *known == self.posture).map_or("any", |(name, _)| name)
+    }
+
+    fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
+        hash_of(slf)
+    }
+
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<NewArgs<'py>> {
+        let keywords = Keywords::new(py)
+            .with("start", self.start(py)?)?
+            .with("goal", self.goal(py)?)?
+            .unless("any", "posture", self.posture())?;
+        Ok(keywords.told())
+    }
+}
+
+fn place(value: &Bound<'_, PyAny>, end: &str) -> PyResult<Place> {
+    if let Ok(configuration) = value.cast::<Configuration>() {
+        return Ok(Place::Configuration(configuration.get().q.clone()));
+    }
+    value.extract().map(|tip| Place::Tip(point(tip))).map_err(|_| {
+        let message = format!("{end} is {value:?}; (x, y) of the tip or a Configuration is needed");
+        PyTypeError::new_err(message)
+    })
+}
+
+fn shown<'py>(py: Python<'py>, place: &Place) -> PyResult<Bound<'py, PyAny>> {
+    match place {
+        Place::Tip(tip) => Ok(pair(*tip).into_pyobject(py)?.into_any()),
+        Place::Configuration(q) => Ok(Bound::new(py, made(Configuration { q: q.clone() }))?.into_any()),
+    }
+}
