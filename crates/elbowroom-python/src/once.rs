@@ -30,7 +30,7 @@ impl<D: Dimension> Once<PyArray<f64, D>> {
 }
 
 impl<A> Once<A> {
-    /// What anything but an array is made with, which nobody can write to as it is.
+    /// The value, of any kind that cannot be written to or is not handed out itself.
     pub(crate) fn made<'py>(
         &self,
         py: Python<'py>,

@@ -4,7 +4,7 @@ use elbowroom::scene::{self, TwoLinkError, TwoLinkScene};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayLike2};
 use pyo3::prelude::*;
-use pyo3::types::{PyCFunction, PyDict, PyMapping, PyMappingProxy, PyTuple};
+use pyo3::types::{PyCFunction, PyDict, PyMapping, PyMappingProxy, PyString, PyTuple};
 
 use super::arm::Arm;
 use super::grid::Grid;
@@ -55,6 +55,7 @@ pub(crate) struct Scene {
     arm: Once<Arm>,
     obstacles: Once<PyTuple>,
     tasks: Once<PyDict>,
+    sha256: Once<PyString>,
 }
 
 /// In which order the tasks stand does not matter.
@@ -71,8 +72,8 @@ impl PartialEq for Scene {
 
 impl Scene {
     fn of(scene: scene::Scene, grid: Grid, source: Option<Source>) -> PyClassInitializer<Self> {
-        let (arm, obstacles, tasks) = (Once::new(), Once::new(), Once::new());
-        made(Self { scene, grid, source, arm, obstacles, tasks })
+        let (arm, obstacles, tasks, sha256) = (Once::new(), Once::new(), Once::new(), Once::new());
+        made(Self { scene, grid, source, arm, obstacles, tasks, sha256 })
     }
 
     pub(crate) fn task(&self, py: Python<'_>, name: &str) -> PyResult<&scene::Task> {
@@ -103,6 +104,26 @@ impl Scene {
         let source = Source::of(&read, file);
         let grid = (*read.scene.grid()).into();
         Bound::new(py, Self::of(read.scene, grid, Some(source)))
+    }
+
+    /// The hash of what the scene says.
+    fn hashed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyString>> {
+        // Not the grid as it was given: equal ones may be given otherwise.
+        let grid = Grid::from(*self.scene.grid());
+        let said = PyDict::new(py);
+        said.set_item("arm", self.arm(py)?)?;
+        said.set_item("grid", grid.shown(py)?)?;
+        said.set_item("obstacles", self.obstacles(py)?)?;
+        said.set_item("tasks", self.tasks_by_name(py)?)?;
+        let keywords = |args: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| {
+            keywords_of(&args.get_item(0)?).map(Bound::unbind)
+        };
+        let options = PyDict::new(py);
+        options.set_item("sort_keys", true)?;
+        options.set_item("default", PyCFunction::new_closure(py, None, None, keywords)?)?;
+        let text = py.import("json")?.call_method("dumps", (said,), Some(&options))?;
+        let hash = py.import("hashlib")?.call_method1("sha256", (text.call_method0("encode")?,))?;
+        Ok(hash.call_method0("hexdigest")?.cast_into()?)
     }
 
     fn tasks_by_name<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -213,23 +234,8 @@ impl Scene {
 
     /// Hash of what the scene says, in hexadecimal: arm, grid, obstacles and tasks, wherever they come from.
     #[getter]
-    fn sha256(&self, py: Python<'_>) -> PyResult<String> {
-        // Not the grid as it was given: equal ones may be given otherwise.
-        let grid = Grid::from(*self.scene.grid());
-        let said = PyDict::new(py);
-        said.set_item("arm", self.arm(py)?)?;
-        said.set_item("grid", grid.shown(py)?)?;
-        said.set_item("obstacles", self.obstacles(py)?)?;
-        said.set_item("tasks", self.tasks_by_name(py)?)?;
-        let keywords = |args: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| {
-            keywords_of(&args.get_item(0)?).map(Bound::unbind)
-        };
-        let options = PyDict::new(py);
-        options.set_item("sort_keys", true)?;
-        options.set_item("default", PyCFunction::new_closure(py, None, None, keywords)?)?;
-        let text = py.import("json")?.call_method("dumps", (said,), Some(&options))?;
-        let hash = py.import("hashlib")?.call_method1("sha256", (text.call_method0("encode")?,))?;
-        hash.call_method0("hexdigest")?.extract()
+    fn sha256<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyString>> {
+        self.sha256.made(py, || self.hashed(py))
     }
 
     /// Return the clearance of each link from the obstacles at configurations ``q``, shape ``(n, joints)``, as an array
