@@ -38,7 +38,7 @@ WORK: dict[str, list[str]] = {
     "plan 3 links": ["plan", "three-links", "reach", "-", "guided-rrt-connect", "joint", "1"],
     "plan 5 links": ["plan", "five-links", "reach", "-", "guided-rrt-connect", "joint", "1"],
     "plan 10 links": ["plan", "ten-links", "reach", "-", "guided-rrt-connect", "joint", "1"],
-    "update, 10 moving discs": ["replan", "paper-standin", "101", "10", "20", "none", "1"],
+    "update, 10 moving discs": ["replan", "paper-standin", "101", "10", "100", "none", "1"],
 }
 """Arguments of the example ``measure``; the second is a scene."""
 

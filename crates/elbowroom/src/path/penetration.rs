@@ -37,13 +37,18 @@ impl<'a> Penetration<'a> {
     /// The violation at `q` (rad), and how far it is from there to the next.
     pub(crate) fn look(&self, q: &[f64]) -> Look {
         let arm = self.scene.arm();
-        let links: SmallVec<[Segment; 8]> = arm.link_segments(q).collect();
+        // Filled where it stands: to collect it would copy it.
+        let mut links: SmallVec<[Segment; 8]> = SmallVec::new();
+        for link in arm.link_segments(q) {
+            links.push(link);
+        }
         let needed = self.margin + arm.half_width();
         let mut look = Look { violation: 0.0, gap: f64::INFINITY };
-        for (obstacle, (center, radius)) in self.scene.obstacles().iter().zip(&self.discs) {
+        for (index, (center, radius)) in self.discs.iter().enumerate() {
             for link in &links {
                 let mut gap = link.distance_to_point(*center) - radius - needed;
                 if gap < 0.0 {
+                    let obstacle = &self.scene.obstacles()[index];
                     gap = obstacle.shape.signed_distance_within(*link, self.margin) - needed;
                     look.violation += (-gap).max(0.0);
                 }
