@@ -13,6 +13,7 @@ from msgspec.structs import fields
 from typer.testing import CliRunner
 
 import elbowroom as er
+from elbowroom.cli.compare_command import _serving
 from elbowroom.cli.main import app
 from elbowroom.compare import Row
 from elbowroom.compare.generate import generated, write_scenes
@@ -194,3 +195,13 @@ def test_the_docs_name_every_column_failure_and_file() -> None:
         "pairs.csv",
     ]:
         assert f"`{name}`" in page, name
+
+
+def test_left_out_planners_are_those_that_serve_the_arm(scenes: Path) -> None:
+    def serving(*names: str) -> set[str]:
+        return set(_serving([scenes / f"{name}.yaml" for name in names]).split(","))
+
+    two, five = serving("paper-standin"), serving("five-links")
+    assert two == set(OWN) - {"guided-rrt-connect"}
+    assert five == {"guided-rrt-connect", "pso", "cbpso", "nsc-pso", "ik-pso"}
+    assert serving("paper-standin", "five-links") == set(OWN)

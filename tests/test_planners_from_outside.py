@@ -109,11 +109,38 @@ def test_a_motion_that_is_not_safe_comes_with_its_verdict(scenes: Path) -> None:
     assert not caught.value.verdict.safe
 
 
+def test_what_it_tells_of_its_search_has_to_be_numbers(scene: er.Scene) -> None:
+    def counts(evaluations: Any, convergence: Any) -> Any:
+        def counted(scene: er.Scene, task: str, **_: object) -> Proposal:
+            q = er.plan(scene, task=task, planner="dstar").configurations
+            return Proposal(t=range(len(q)), q=q, evaluations=evaluations, convergence=convergence)
+
+        return counted
+
+    told = er.plan(scene, task="first", planner=counts(np.int64(5), [(np.int32(3), np.float32(1.5))]))
+    assert (told.evaluations, told.convergence) == (5, [(3, 1.5)])
+    for evaluations, convergence in (("many", None), (-1, None), (5, [1, 2]), (5, "abc")):
+        with pytest.raises(er.PlannerFault, match=r"planner .*counted: "):
+            er.plan(scene, task="first", planner=counts(evaluations, convergence))
+
+
+def test_the_stops_of_its_motion_are_counted(scene: er.Scene) -> None:
+    def turns(scene: er.Scene, task: str, **_: object) -> Proposal:
+        return straight_turns(scene, er.plan(scene, task=task, planner="dstar").configurations[::4])
+
+    plan = er.plan(scene, task="second", planner=turns)
+    assert plan.stops == len(plan.motion.starts) - 1
+
+
 def test_what_a_planner_says_on_purpose_is_handed_on(scene: er.Scene) -> None:
     with pytest.raises(er.NotFound, match="nothing here"):
         er.plan(scene, task="first", planner=compare_plugins.crashes)
     with pytest.raises(er.BadSetting, match="planner honest has no option 'shift_by'; known: shift"):
         er.plan(scene, task="first", planner=honest, options={"shift_by": 1})
+    for value in ("much", True, None, [1.0]):
+        with pytest.raises(er.BadSetting, match=r"option shift of planner honest is .*, it must be of type float"):
+            er.plan(scene, task="first", planner=honest, options={"shift": value})  # type: ignore[dict-item]
+    assert er.plan(scene, task="first", planner=honest, options={"shift": 0}).settings["shift"] == 0
     with pytest.raises(er.BadSetting, match="gap is for planners that search in rounds"):
         er.plan(scene, task="first", planner=honest, gap=0.1)
     with pytest.raises(er.UnknownTask, match="no task is called 'third'"):

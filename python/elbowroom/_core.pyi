@@ -46,6 +46,7 @@ __all__ = [
     "interpolated",
     "mismatch",
     "objectives",
+    "only_task",
     "plan",
     "plan_again",
     "plan_as_in_paper",
@@ -656,7 +657,7 @@ def plan_proposed(
     task: str,
     *,
     planner: str,
-    settings: Sequence[tuple[str, int | float | str]],
+    settings: Sequence[tuple[str, bool | int | float | str]],
     objective: str,
     seed: int,
     motion: Motion | None = None,
@@ -671,10 +672,11 @@ def plan_proposed(
 def plan_again(scene: Scene, motion: Motion, kept: Mapping[str, Any]) -> Plan: ...
 def gap(cost: float, lower_bound: float) -> float | None: ...
 def objectives() -> list[tuple[str, str, str]]: ...
+def only_task(scene: Scene, task: str | None = None) -> str: ...
 def default_planner(scene: Scene) -> str: ...
 def mismatch(scene: Scene, task: str, motion: Motion, posture_changes: Sequence[float]) -> str | None: ...
 def planner_options(planner: str, options: Sequence[tuple[str, int | str]]) -> dict[str, int | str]: ...
-def planners_known() -> list[tuple[str, dict[str, int | str], str | None]]: ...
+def planners_known() -> list[tuple[str, dict[str, int | str], str | None, int, int]]: ...
 def interpolated(
     times: NDArray[np.float64],
     positions: NDArray[np.float64],

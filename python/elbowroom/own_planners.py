@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from elbowroom import _core
 from elbowroom.errors import BadSetting
+from elbowroom.scene import Scene
 from elbowroom.whole import is_whole
 
 OwnOption = int | str
@@ -21,14 +22,22 @@ class OwnKind:
         name: What it is asked for by.
         options: All its options with their defaults.
         budget: Which of them limits how many candidates it judges; None if it does not count them.
+        least: The fewest links of an arm that it serves.
+        most: The most.
     """
 
     name: str
     options: Mapping[str, OwnOption]
     budget: str | None
+    least: int
+    most: int
+
+    def serves(self, scene: Scene) -> bool:
+        """Return whether it serves the arm of ``scene``."""
+        return self.least <= len(scene.arm.links) <= self.most
 
 
-OWN: Mapping[str, OwnKind] = {name: OwnKind(name, options, budget) for name, options, budget in _core.planners_known()}
+OWN: Mapping[str, OwnKind] = {known[0]: OwnKind(*known) for known in _core.planners_known()}
 """All of them by name, in the order that tables show them."""
 
 

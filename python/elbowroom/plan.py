@@ -8,7 +8,7 @@ from typing import Literal
 
 from elbowroom import _core, plugins
 from elbowroom._core import PaperPlan, Plan
-from elbowroom.errors import BadSetting, NotFree, UnknownTask
+from elbowroom.errors import BadSetting, NotFree
 from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN, all_options
 from elbowroom.plan_proposed import plan_proposed
@@ -19,24 +19,6 @@ from elbowroom.whole import check_whole
 PaperPlanner = Literal["dstar-pso", "dstar"]
 AnyPlan = Plan | PaperPlan
 """What can be drawn and written to files, verified or not."""
-
-
-def only_task(scene: Scene, task: str | None) -> str:
-    """Return ``task``, or the scene's only one if None.
-
-    Raises:
-        UnknownTask: The scene has no such task, or more than one to choose from.
-    """
-    known = list(scene.tasks)
-    listed = ", ".join(known) or "none"
-    if task is not None:
-        if task not in known:
-            message = f"no task is called '{task}'; tasks of this scene: {listed}"
-            raise UnknownTask(message, name=task, known=known)
-        return task
-    if len(known) == 1:
-        return known[0]
-    raise UnknownTask(f"name the task to plan; tasks of this scene: {listed}", name="", known=known)
 
 
 def plan(
@@ -86,7 +68,7 @@ def plan(
         PlannerFault: A callable or plug-in failed, or what it proposed is not safe or does not do the task.
     """
     check_whole("seed", seed)
-    task = only_task(scene, task)
+    task = _core.only_task(scene, task)
     asked = _core.default_planner(scene) if planner is None else planner
     try:
         if not isinstance(asked, str) or asked not in OWN:
@@ -171,7 +153,7 @@ def plan_as_in_paper(
     check_whole("seed", seed)
     check_whole("vias", vias)
     check_whole("candidates", candidates, least=1)
-    task = only_task(scene, task)
+    task = _core.only_task(scene, task)
     try:
         return _core.plan_as_in_paper(
             scene,

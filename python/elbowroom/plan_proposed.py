@@ -39,6 +39,11 @@ def plan_proposed(
     if unknown := next((option for option in options if option not in defaults), None):
         listed = ", ".join(defaults) or "it has none"
         raise BadSetting(f"planner {name} has no option '{unknown}'; known: {listed}", setting=unknown)
+    for option, value in options.items():
+        if not _fits(value, defaults[option]):
+            wanted = type(defaults[option]).__name__
+            message = f"option {option} of planner {name} is {value!r}, it must be of type {wanted}"
+            raise BadSetting(message, setting=option)
     if on_stage is not None:
         on_stage("search")
     begun = perf_counter()
@@ -66,15 +71,32 @@ def plan_proposed(
     )
 
 
+def _count(value: Any) -> int:
+    count = int(value)
+    if count < 0:
+        raise ValueError(f"{count} evaluations")
+    return count
+
+
+def _fits(value: object, default: Option) -> bool:
+    """Whether ``value`` is of the type of ``default``; whole numbers are numbers, True and False are none."""
+    if isinstance(default, bool) or isinstance(value, bool):
+        return isinstance(default, bool) and isinstance(value, bool)
+    return isinstance(value, (int, float) if isinstance(default, float) else type(default))
+
+
 def _candidate(name: str, answer: Any) -> dict[str, Any]:
     """``answer`` as the core takes it: a motion where all of its derivatives are known, else a path."""
     if not isinstance(answer, Plan | Proposal):
         message = f"planner {name} returned {type(answer).__name__}, not a Proposal"
         raise PlannerFault(message, planner=name)
-    told: dict[str, Any] = {"evaluations": answer.evaluations, "convergence": answer.convergence}
-    if isinstance(answer, Plan):
-        return {"motion": answer.motion, **told}
     try:
+        told: dict[str, Any] = {
+            "evaluations": None if answer.evaluations is None else _count(answer.evaluations),
+            "convergence": [(_count(made), float(cost)) for made, cost in answer.convergence or ()],
+        }
+        if isinstance(answer, Plan):
+            return {"motion": answer.motion, **told}
         t, q, v, a = (
             None if x is None else np.ascontiguousarray(x, dtype=np.float64)
             for x in (answer.t, answer.q, answer.v, answer.a)

@@ -15,7 +15,7 @@ from elbowroom import _core
 from elbowroom._core import Verdict
 from elbowroom.errors import BadSetting, NotFree
 from elbowroom.known import Known, all_known
-from elbowroom.plan import located, only_task
+from elbowroom.plan import located
 from elbowroom.samples import Floats, Samples, sampled
 from elbowroom.scene import Scene
 from elbowroom.whole import check_whole
@@ -95,7 +95,7 @@ class Replanner:
                 setting="arm",
             )
         self.scene = scene
-        self.task = only_task(scene, task)
+        self.task = _core.only_task(scene, task)
         self.seed = seed
         start = None if q is None else joint_values("q", q)
         try:

@@ -123,12 +123,13 @@ pub(crate) fn timed_out(py: Python<'_>, timeout: Option<f64>) -> PyErr {
     exception(py, "TimedOut", &message, |fields| fields.set_item("timeout", timeout))
 }
 
-/// A task that the scene does not have.
-pub(crate) fn unknown_task(py: Python<'_>, name: &str, known: Vec<String>) -> PyErr {
+/// A task that the scene does not have, or none that is named where there is more than one, or none at all.
+pub(crate) fn unknown_task(py: Python<'_>, name: Option<&str>, known: Vec<String>) -> PyErr {
     let list = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-    let message = format!("no task is called '{name}'; tasks of this scene: {list}");
-    exception(py, "UnknownTask", &message, |fields| {
-        fields.set_item("name", name)?;
+    let what =
+        name.map_or_else(|| "name the task to plan".to_owned(), |name| format!("no task is called '{name}'"));
+    exception(py, "UnknownTask", &format!("{what}; tasks of this scene: {list}"), |fields| {
+        fields.set_item("name", name.unwrap_or_default())?;
         fields.set_item("known", known)
     })
 }
@@ -217,7 +218,10 @@ pub(crate) fn proposed(
             Ok(verdict) => Some(verdict),
             Err(error) => return error,
         },
-        PlanError::Failed { .. } | PlanError::Mismatch { .. } | PlanError::BelowBound { .. } => None,
+        PlanError::Uncertified { .. }
+        | PlanError::Failed { .. }
+        | PlanError::Mismatch { .. }
+        | PlanError::BelowBound { .. } => None,
         other => return plan(py, task, timeout, other),
     };
     exception(py, "PlannerFault", &error.to_string(), |fields| {

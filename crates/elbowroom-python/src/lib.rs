@@ -38,7 +38,7 @@ mod _core {
     use super::plan_kept::plan_again;
     #[pymodule_export]
     use super::planning::{
-        default_planner, gap, mismatch, objectives, plan, planner_options, planners_known,
+        default_planner, gap, mismatch, objectives, only_task, plan, planner_options, planners_known,
     };
     #[pymodule_export]
     use super::proposed::plan_proposed;

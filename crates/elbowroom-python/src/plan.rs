@@ -43,6 +43,7 @@ pub(crate) struct Question {
 /// The value of a setting.
 #[derive(Clone, PartialEq, FromPyObject, IntoPyObject)]
 pub(crate) enum Setting {
+    Flag(bool),
     Count(usize),
     Number(f64),
     Word(String),

@@ -27,14 +27,17 @@ impl From<OptionPart> for OptionValue {
     }
 }
 
-/// A planner's name, its options with their defaults, and which of them is its budget, if any.
-type Known<'py> = (String, Bound<'py, PyDict>, Option<&'static str>);
+/// What there is to know of a planner, see [`planners_known`].
+type Known<'py> = (String, Bound<'py, PyDict>, Option<&'static str>, usize, usize);
 
-/// Return every planner: its name, its options with their defaults, and which of them is its budget, if any.
+/// Return every planner: its name, its options with their defaults, which of them is its budget, if any, and the least and most
+/// links of arms that it serves.
 #[pyfunction]
 pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
-    let known =
-        |planner: &dyn Planner| Ok((planner.name().to_owned(), options_of(py, planner)?, planner.budget()));
+    let known = |planner: &dyn Planner| {
+        let (least, most) = planner.links().into_inner();
+        Ok((planner.name().to_owned(), options_of(py, planner)?, planner.budget(), least, most))
+    };
     planners::all().iter().map(|planner| known(&**planner)).collect()
 }
 
@@ -42,6 +45,23 @@ pub(crate) fn planners_known(py: Python<'_>) -> PyResult<Vec<Known<'_>>> {
 #[pyfunction]
 pub(crate) fn default_planner(scene: &Scene) -> String {
     planners::default_for(scene.scene.arm()).name().to_owned()
+}
+
+/// Return ``task``, or the name of the only task of ``scene`` if ``None``.
+///
+/// Raises:
+///     UnknownTask: The scene has no such task, or not exactly one.
+#[pyfunction]
+#[pyo3(signature = (scene, task=None))]
+pub(crate) fn only_task(py: Python<'_>, scene: &Scene, task: Option<&str>) -> PyResult<String> {
+    match (task, scene.scene.tasks()) {
+        (Some(name), _) => scene.task(py, name).map(|task| task.name.clone()),
+        (None, [only]) => Ok(only.name.clone()),
+        (None, tasks) => {
+            let known = tasks.iter().map(|task| task.name.clone()).collect();
+            Err(errors::unknown_task(py, None, known))
+        }
+    }
 }
 
 /// Return all options of the planner called ``planner``, with ``options`` in place of its defaults.

@@ -3,10 +3,8 @@
 use elbowroom::arm::Configuration;
 use elbowroom::path::JointPath;
 use elbowroom::planning::{
-    self, Candidate, CertifiedPath, Effort, Found, Pace, Pick, PlanError, PlanSettings, Planner, Problem,
-    Round,
+    self, Candidate, Effort, Found, Pace, Pick, PlanError, PlanSettings, Planner, Problem, Round,
 };
-use elbowroom::trajectory;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
@@ -21,14 +19,8 @@ use crate::watch;
 #[derive(Debug)]
 struct Proposer {
     name: String,
-    proposed: Proposed,
+    candidate: Candidate,
     effort: Option<Effort>,
-}
-
-#[derive(Debug)]
-enum Proposed {
-    Path(JointPath),
-    Motion(trajectory::Motion),
 }
 
 impl Planner for Proposer {
@@ -36,17 +28,8 @@ impl Planner for Proposer {
         &self.name
     }
 
-    fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
-        let candidate = match &self.proposed {
-            Proposed::Motion(motion) => Candidate::Motion(motion.clone()),
-            Proposed::Path(path) => {
-                let path = CertifiedPath::new(problem.scene, path.clone()).map_err(|uncertified| {
-                    PlanError::Failed { planner: self.name.clone(), reason: uncertified.to_string() }
-                })?;
-                Candidate::along(problem.scene, path)
-            }
-        };
-        let found = Found::new(vec![candidate], Pick::First);
+    fn search(&self, _: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
+        let found = Found::new(vec![self.candidate.clone()], Pick::First);
         Ok(Found { effort: self.effort.clone(), ..found })
     }
 }
@@ -84,20 +67,20 @@ pub(crate) fn plan_proposed(
     let core = scene.get();
     let asked = core.task(py, task)?;
     let objective = objective_called(py, objective)?;
-    let proposed = match (motion, configurations) {
-        (Some(motion), None) => Proposed::Motion((*motion.motion).clone()),
+    let candidate = match (motion, configurations) {
+        (Some(motion), None) => Candidate::motion((*motion.motion).clone()),
         (None, Some(rows)) => {
             let row =
                 |row: numpy::ndarray::ArrayView1<'_, f64>| row.iter().copied().collect::<Configuration>();
             let mut places: Vec<Configuration> = rows.as_array().outer_iter().map(row).collect();
             places.dedup();
-            Proposed::Path(JointPath(places))
+            Candidate::along(JointPath(places))
         }
         _ => return Err(errors::internal(py, "a proposal is a motion or a path")),
     };
     let effort =
         evaluations.map(|evaluations| Effort { evaluations, convergence: convergence.unwrap_or_default() });
-    let proposer = Proposer { name: planner, proposed, effort };
+    let proposer = Proposer { name: planner, candidate, effort };
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
     let plan_settings = PlanSettings { objective, pace, seed, gap: None };
     let work = |watch: &watch::Watch| planning::plan(&core.scene, asked, &proposer, &plan_settings, watch);

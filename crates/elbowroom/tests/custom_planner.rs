@@ -16,8 +16,8 @@ use chain_judge::assert_true;
 use elbowroom::arm::Configuration;
 use elbowroom::path::JointPath;
 use elbowroom::planning::{
-    Candidate, CertifiedPath, Effort, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanSettings, Planner,
-    Problem, Round, Uncertified, Unwatched, plan,
+    Candidate, Effort, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanSettings, Planner, Problem, Round,
+    Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, TaskPosture};
 use elbowroom::trajectory::{Motion, fastest_durations, quintic_through, vias_at};
@@ -64,7 +64,7 @@ fn asked(scene: &Scene, planner: &dyn Planner, settings: &PlanSettings) -> Resul
 }
 
 fn mismatch(scene: &Scene, motion: Motion) -> Mismatch {
-    match asked(scene, &one(Candidate::Motion(motion)), &PlanSettings::default()) {
+    match asked(scene, &one(Candidate::motion(motion)), &PlanSettings::default()) {
         Err(PlanError::Mismatch { planner, mismatch }) if planner == "says" => mismatch,
         other => panic!("{other:?}"),
     }
@@ -76,44 +76,45 @@ const GOAL: [f64; 2] = [PI - 0.3, 0.5];
 #[test]
 fn a_path_and_a_motion_become_plans() {
     let scene = scene(TaskPosture::Any);
-    let path = CertifiedPath::new(&scene, JointPath(places(&[START, [1.5, -0.4], GOAL]))).unwrap();
-    let along = asked(&scene, &one(Candidate::along(&scene, path)), &PlanSettings::default()).unwrap();
+    let path = JointPath(places(&[START, [1.5, -0.4], GOAL]));
+    let along = asked(&scene, &one(Candidate::along(path)), &PlanSettings::default()).unwrap();
     assert_true(&scene, &scene.tasks()[0], &along);
     assert!(along.lower_bound().is_none_or(|bound| bound > 0.0) && along.effort().is_none());
 
     let given = motion(&[START, [1.5, 0.2], GOAL]);
     let effort = Effort { evaluations: 7, convergence: vec![(7, 1.0)] };
-    let says = Says(one(Candidate::Motion(given.clone())).0.with_effort(effort.clone()));
+    let says = Says(one(Candidate::motion(given.clone())).0.with_effort(effort.clone()));
     let as_given = asked(&scene, &says, &PlanSettings::default()).unwrap();
     assert_eq!((as_given.trajectory().motion(), as_given.effort()), (&given, Some(&effort)));
     assert!((as_given.cost() - given.tip_length(scene.arm())).abs() < 1e-12);
     // A goal whole turns away is the same for a continuous joint.
     let round = asked(
         &scene,
-        &one(Candidate::Motion(motion(&[START, [PI - 0.3, 0.5 + 2.0 * PI]]))),
+        &one(Candidate::motion(motion(&[START, [PI - 0.3, 0.5 + 2.0 * PI]]))),
         &PlanSettings::default(),
     );
     assert!(round.is_ok(), "{round:?}");
 }
 
 #[test]
-fn a_path_through_an_obstacle_is_no_certified_path() {
+fn a_path_through_an_obstacle_is_refused_at_the_move_that_is_not_free() {
     let scene = scene(TaskPosture::Any);
-    let refused = |angles: &[[f64; 2]]| CertifiedPath::new(&scene, JointPath(places(angles)));
-    let through = [START, [0.0, 0.0], [-PI, 0.0]];
-    assert_eq!(refused(&through), Err(Uncertified { from: 1 }));
-    assert_eq!(refused(&[]), Err(Uncertified { from: 0 }));
-    assert_eq!(refused(&[[-PI / 2.0, 0.0]]), Err(Uncertified { from: 0 }), "one place alone, in contact");
-    assert_eq!(refused(&[START, [f64::NAN, 0.0]]), Err(Uncertified { from: 1 }));
-    let three = JointPath(vec![[0.0; 3].into()]);
-    assert_eq!(CertifiedPath::new(&scene, three), Err(Uncertified { from: 0 }), "of another arm");
+    let refused = |path: JointPath, from: usize, why: &str| {
+        let along = asked(&scene, &one(Candidate::along(path)), &PlanSettings::default());
+        assert_eq!(along.unwrap_err(), PlanError::Uncertified { planner: "says".to_owned(), from }, "{why}");
+    };
+    refused(JointPath(places(&[START, [0.0, 0.0], [-PI, 0.0]])), 1, "the second move");
+    refused(JointPath(vec![]), 0, "no places");
+    refused(JointPath(places(&[[-PI / 2.0, 0.0]])), 0, "one place alone, in contact");
+    refused(JointPath(places(&[START, [f64::NAN, 0.0]])), 1, "no number");
+    refused(JointPath(vec![START.into(), [0.0; 3].into()]), 1, "of another arm");
 }
 
 #[test]
 fn a_motion_through_an_obstacle_is_refused_with_the_verdict() {
     let scene = scene(TaskPosture::Any);
     let under = motion(&[START, [-PI / 2.0, 0.5], [-PI - 0.3, 0.5]]);
-    match asked(&scene, &one(Candidate::Motion(under)), &PlanSettings::default()) {
+    match asked(&scene, &one(Candidate::motion(under)), &PlanSettings::default()) {
         Err(error @ PlanError::Refused { .. }) => {
             let PlanError::Refused { ref planner, ref verdict } = error else { panic!() };
             assert_eq!(planner, "says");
@@ -158,7 +159,7 @@ fn a_safe_motion_that_does_not_do_the_task_is_found_out() {
     assert!(matches!(mismatch(&up, there.clone()), Mismatch::GoalPosture { .. }));
 
     let settings = PlanSettings { pace: Pace::Duration(20.0), ..PlanSettings::default() };
-    match asked(&any, &one(Candidate::Motion(there.clone())), &settings) {
+    match asked(&any, &one(Candidate::motion(there.clone())), &settings) {
         Err(PlanError::Mismatch { mismatch: Mismatch::Duration { takes, asked: 20.0 }, .. }) => {
             assert!((takes - there.duration()).abs() < 1e-12);
         }
@@ -169,9 +170,9 @@ fn a_safe_motion_that_does_not_do_the_task_is_found_out() {
 #[test]
 fn of_several_candidates_the_first_or_the_best_that_is_accepted_is_taken() {
     let scene = scene(TaskPosture::Any);
-    let wrong = Candidate::Motion(motion(&[GOAL, START]));
-    let detour = Candidate::Motion(motion(&[START, [-0.6, 0.5], GOAL]));
-    let direct = Candidate::Motion(motion(&[START, GOAL]));
+    let wrong = Candidate::motion(motion(&[GOAL, START]));
+    let detour = Candidate::motion(motion(&[START, [-0.6, 0.5], GOAL]));
+    let direct = Candidate::motion(motion(&[START, GOAL]));
     let candidates = vec![wrong.clone(), detour, direct];
     let cost = |pick| {
         let says = Says(Found::new(candidates.clone(), pick));
@@ -196,7 +197,7 @@ fn among_equal_candidates_the_one_with_more_clearance_is_taken() {
     let over = motion(&[[0.0, 0.0], [1.3, 2.0], [PI, 0.0]]);
     let under = motion(&[[0.0, 0.0], [-1.3, -2.0], [-PI, 0.0]]);
     for candidates in [vec![over.clone(), under.clone()], vec![under.clone(), over]] {
-        let candidates = candidates.into_iter().map(Candidate::Motion).collect();
+        let candidates = candidates.into_iter().map(Candidate::motion).collect();
         let plan =
             asked(&scene, &Says(Found::new(candidates, Pick::Best)), &PlanSettings::default()).unwrap();
         assert_eq!(plan.trajectory().motion(), &under);

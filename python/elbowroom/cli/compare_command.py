@@ -21,8 +21,8 @@ def compare_command(
     planners: Annotated[
         str | None,
         typer.Option(
-            help="Names with commas between, options as NAME:OPTION=VALUE:OPTION=VALUE; if left out all of elbowroom's "
-            f"own: {', '.join(OWN)}."
+            help="Names with commas between, options as NAME:OPTION=VALUE:OPTION=VALUE; if left out those of "
+            f"elbowroom's own that serve an arm of the scenes: {', '.join(OWN)}."
         ),
     ] = None,
     tasks: Annotated[
@@ -52,7 +52,7 @@ def compare_command(
         from elbowroom.compare.report import write_report
         from elbowroom.planners import all_chosen
 
-        choices = all_chosen(",".join(OWN) if planners is None else planners)
+        choices = all_chosen(_serving(scenes) if planners is None else planners)
         with _goes_on(out), _progress() as (count, say):
             done = compare(
                 scenes,
@@ -110,6 +110,14 @@ def _command(scenes: list[Path], options: dict[str, Any]) -> str:
         files = [f"{shlex.quote(str(folder))}/*.yaml"]
     words = [word for name, value in options.items() if value is not None for word in (name, str(value))]
     return " ".join(["elbowroom", "compare", *files, shlex.join(words)])
+
+
+def _serving(scenes: list[Path]) -> str:
+    """Those of elbowroom's own planners that serve the arm of any of ``scenes``."""
+    from elbowroom.scene import Scene
+
+    loaded = [Scene.load(path) for path in scenes]
+    return ",".join(name for name, kind in OWN.items() if any(map(kind.serves, loaded)))
 
 
 @contextmanager

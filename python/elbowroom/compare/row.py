@@ -38,7 +38,7 @@ FAILURES: dict[str, str] = {
     "refused": "the planner does not serve this arm, task or setting",
     "no_motion": "what the planner returned is no motion",
     "unsafe": "the verifier does not call the motion safe",
-    "wrong_end": "the motion begins or ends elsewhere, or in the wrong posture",
+    "wrong_end": "the motion begins or ends elsewhere, not at rest, or in the wrong posture",
     "broken": "the planner raised what it should not, or claims what is not so",
     "crashed": "the planner ended its process",
 }

@@ -78,7 +78,7 @@ impl Scene {
 
     pub(crate) fn task(&self, py: Python<'_>, name: &str) -> PyResult<&scene::Task> {
         let known = || self.scene.tasks().iter().map(|task| task.name.clone()).collect();
-        self.scene.task(name).ok_or_else(|| errors::unknown_task(py, name, known()))
+        self.scene.task(name).ok_or_else(|| errors::unknown_task(py, Some(name), known()))
     }
 
     /// The scene with the closed forms of its arm, for `what` cannot do with another, or with obstacles that move.

@@ -7,7 +7,7 @@ use crate::path::{JointPath, straight_move_is_free};
 use crate::planners::DstarPlanner;
 use crate::planning::{Endpoints, PlanError, Planner, Unwatched};
 use crate::roadmap::{DynamicGraph, Goal, NodeCache};
-use crate::scene::{Obstacle, Scene, SceneProblem, Task, TwoLinkError};
+use crate::scene::{Obstacle, Scene, SceneProblem, Task};
 use crate::search::{Dstar, Graph, Progress, Until};
 
 /// Expansions of D* between two looks at how far the search has to go.
@@ -92,15 +92,8 @@ impl Roadmap {
     /// [`PlanError::GoalPosture`]; [`PlanError::OtherArm`] for more links than two, [`PlanError::Moving`] for an obstacle
     /// that moves by itself.
     pub fn new(scene: Scene, task: &Task) -> Result<Self, PlanError> {
-        let two_link = scene.two_link().map_err(|error| match error {
-            TwoLinkError::Links { found } => PlanError::OtherArm {
-                planner: DstarPlanner.name().to_owned(),
-                least: 2,
-                most: 2,
-                links: found,
-            },
-            TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
-        })?;
+        let two_link =
+            scene.two_link().map_err(|error| PlanError::not_two_link(DstarPlanner.name(), error))?;
         let ends = Endpoints::new(&still(&scene, |_, _| Some(AWAY)), task, 0, &Unwatched)?;
         let ([_, goals], may_change_posture) = (ends.pairs(), !ends.keep_posture);
         let space = FreeSpace::of(two_link);

@@ -66,7 +66,7 @@ pub enum NameError {
         /// What was given.
         value: OptionValue,
         /// What it may be.
-        allowed: &'static str,
+        allowed: String,
     },
 }
 

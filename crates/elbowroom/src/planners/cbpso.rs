@@ -62,13 +62,10 @@ impl Planner for CbpsoPlanner {
         vec![("vias", OptionValue::Count(self.vias)), ("evaluations", OptionValue::Count(self.evaluations))]
     }
 
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), String> {
         match option {
-            "vias" => self.vias = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
-            _ => {
-                self.evaluations =
-                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?
-            }
+            "vias" => self.vias = value.count_in(1..=64)?,
+            _ => self.evaluations = value.count_in(1..=MOST_EVALUATIONS)?,
         }
         Ok(())
     }
@@ -118,7 +115,7 @@ impl Planner for CbpsoPlanner {
             }
         }
         let (motion, effort) = incumbent.end()?;
-        Ok(Found::new(vec![Candidate::Motion(motion)], Pick::First).with_effort(effort))
+        Ok(Found::new(vec![Candidate::motion(motion)], Pick::First).with_effort(effort))
     }
 }
 

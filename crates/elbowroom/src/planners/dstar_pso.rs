@@ -2,7 +2,7 @@ use std::ops::RangeInclusive;
 
 use super::over_grid::{Choice, over_grid};
 use crate::planning::{Found, OptionValue, PlanError, Planner, Problem, Round};
-use crate::swarm::GuidedSwarmSettings;
+use crate::swarm::{GuidedSwarmSettings, MAX_CANDIDATES};
 
 /// `dstar-pso`, the paper's: of D*'s own paths over grid points and postures, and those that the modified lbest swarm draws
 /// over its cost-to-go, the best; for arms of two links.
@@ -28,8 +28,8 @@ impl Planner for DstarPsoPlanner {
         vec![("candidates", OptionValue::Count(self.swarm.candidates))]
     }
 
-    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), &'static str> {
-        self.swarm.candidates = value.count_in(0..=usize::MAX).ok_or("a whole number")?;
+    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), String> {
+        self.swarm.candidates = value.count_in(1..=MAX_CANDIDATES)?;
         Ok(())
     }
 

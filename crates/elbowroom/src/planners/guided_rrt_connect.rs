@@ -1,10 +1,8 @@
 use std::ops::RangeInclusive;
 
 use super::swarms::MOST_EVALUATIONS;
-use super::tip_guided::{LocalPlanner, NavigationFunction, Trees, estimated_cost, shortened};
-use crate::arm::Configuration;
-use crate::path::JointPath;
-use crate::planning::{Budget, Exhausted, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
+use super::tip_guided::{LocalPlanner, NavigationFunction, Trees, gather};
+use crate::planning::{Budget, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
 use crate::scene::Place;
 
 /// `guided-rrt-connect`: two trees of configurations, one from the starts and one from the goals, grow along D*'s ways for the tip
@@ -41,12 +39,11 @@ impl Planner for GuidedRrtConnectPlanner {
         vec![("paths", OptionValue::Count(self.paths)), ("evaluations", OptionValue::Count(self.evaluations))]
     }
 
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), String> {
         match option {
-            "paths" => self.paths = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
+            "paths" => self.paths = value.count_in(1..=64)?,
             _ => {
-                self.evaluations =
-                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?;
+                self.evaluations = value.count_in(1..=MOST_EVALUATIONS)?;
             }
         }
         Ok(())
@@ -57,34 +54,17 @@ impl Planner for GuidedRrtConnectPlanner {
     }
 
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
-        let Problem { scene, task, endpoints: ends, settings, monitor, .. } = problem;
-        let mut local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        let Problem { scene, task, settings, monitor, .. } = problem;
         monitor.stage(Stage::FreeSpace);
-        let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
-        let to_goals = NavigationFunction::new(scene, &tips(&ends.goals), *monitor)?;
-        let to_starts = to_goals.towards(&tips(&ends.starts))?;
+        let [to_goals, to_starts] = NavigationFunction::both_ways(problem)?;
         let asked = [&task.goal, &task.start].map(|place| match place {
             Place::Tip(tip) => Some(*tip),
             Place::Configuration(_) => None,
         });
 
         monitor.stage(Stage::TipPath);
-        let trees = Trees::new(ends, asked, to_goals, to_starts);
-        let mut paths: Vec<(f64, JointPath)> = Vec::new();
-        while paths.len() < self.paths {
-            let drawn =
-                trees.path(&mut local).and_then(|path| shortened(&mut local, path, settings.objective));
-            match drawn {
-                Ok(path) => {
-                    let estimate =
-                        estimated_cost(scene.arm(), settings.objective, &path, scene.grid().step());
-                    local.budget.found(estimate);
-                    paths.push((estimate, path));
-                }
-                Err(Exhausted::Spent) => break,
-                Err(Exhausted::Failed(error)) => return Err(error),
-            }
-        }
-        Ok(local.found(paths, self.paths))
+        let trees = Trees::new(&problem.endpoints, asked, to_goals, to_starts);
+        let local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        gather(problem, local, [self.paths; 2], |local| trees.path(local).map(Some))
     }
 }

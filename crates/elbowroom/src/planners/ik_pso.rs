@@ -4,10 +4,9 @@
 //! tip's workspace, contact orders particles by Deb's rule, and every turn is certified.
 
 use super::swarms::MOST_EVALUATIONS;
-use super::tip_guided::{LocalPlanner, NavigationFunction, estimated_cost, shortened};
+use super::tip_guided::{LocalPlanner, NavigationFunction, gather};
 use crate::arm::{Configuration, Posture, joint_distance, lerp};
 use crate::geometry::Point;
-use crate::path::JointPath;
 use crate::planning::{Budget, Exhausted, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
 use crate::scene::Place;
 
@@ -66,9 +65,8 @@ impl Planner for IkPsoPlanner {
         vec![("evaluations", OptionValue::Count(self.evaluations))]
     }
 
-    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), &'static str> {
-        self.evaluations =
-            value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?;
+    fn set(&mut self, _: &str, value: &OptionValue) -> Result<(), String> {
+        self.evaluations = value.count_in(1..=MOST_EVALUATIONS)?;
         Ok(())
     }
 
@@ -80,11 +78,8 @@ impl Planner for IkPsoPlanner {
     /// other until the budget is spent.
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
         let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
-        let mut local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
         monitor.stage(Stage::FreeSpace);
-        let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<Point>>();
-        let to_goals = NavigationFunction::new(scene, &tips(&ends.goals), *monitor)?;
-        let to_starts = to_goals.towards(&tips(&ends.starts))?;
+        let [to_goals, to_starts] = NavigationFunction::both_ways(problem)?;
 
         monitor.stage(Stage::JointPath);
         let any_posture = scene.arm().links() > 2;
@@ -100,8 +95,10 @@ impl Planner for IkPsoPlanner {
         // What is learnt from one root stays with it, as far as memory goes.
         let most = (MOST_CELLS / scene.grid().len()).max(2);
         let mut guides = ways.map(|(roots, _, guide)| vec![guide.clone(); roots.len().min(most)]);
-        let mut paths: Vec<(f64, JointPath)> = Vec::new();
-        for run in 0_usize.. {
+        let local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
+        let mut runs = 0_usize..;
+        gather(problem, local, [usize::MAX, MOST_MOTIONS], |local| {
+            let run = runs.next().unwrap_or_default();
             let (roots, target, _) = ways[run % 2];
             let round = run / 2;
             let root = &roots[round % roots.len()];
@@ -111,29 +108,15 @@ impl Planner for IkPsoPlanner {
             let guide = &mut guides[run % 2][round % roots.len() % kept];
             let follower = Follower { guide, target, most: self.evaluations / SHARE };
             // Every run counts, so that the budget ends them.
-            let path = local.budget.spend(1).and_then(|()| follower.path(&mut local, root));
-            let found = match path {
-                Ok(Some(mut path)) => {
-                    if run % 2 == 1 {
-                        path.reverse();
-                    }
-                    shortened(&mut local, path, settings.objective)
+            local.budget.spend(1)?;
+            let path = follower.path(local, root)?;
+            Ok(path.map(|mut path| {
+                if run % 2 == 1 {
+                    path.reverse();
                 }
-                Ok(None) => continue,
-                Err(halt) => Err(halt),
-            };
-            match found {
-                Ok(path) => {
-                    let estimate =
-                        estimated_cost(scene.arm(), settings.objective, &path, scene.grid().step());
-                    local.budget.found(estimate);
-                    paths.push((estimate, path));
-                }
-                Err(Exhausted::Spent) => break,
-                Err(Exhausted::Failed(error)) => return Err(error),
-            }
-        }
-        Ok(local.found(paths, MOST_MOTIONS))
+                path
+            }))
+        })
     }
 }
 

@@ -1,18 +1,11 @@
 //! A swarm over way-points whose first particles are shaken where the straight way is bad, in the style of NSC-PSO.
 
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
 
-use super::swarms::{
-    EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, certified, places,
-};
-use crate::arm::Configuration;
-use crate::path::JointPath;
-use crate::planning::{
-    Candidate, CertifiedPath, Found, OptionValue, Pick, PlanError, Planner, Problem, Round, Stage,
-};
+use super::swarms::{EndpointChoice, MOST_EVALUATIONS, PathObjective, PolylineSwarm, search_polylines};
+use crate::planning::{Found, OptionValue, PlanError, Planner, Problem, Round};
 use crate::random::unit;
-use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
+use crate::swarm::{Neighbourhood, SwarmSettings};
 
 /// Where the first particles are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,17 +68,14 @@ impl Planner for NscPsoPlanner {
         ]
     }
 
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), String> {
         match option {
-            "waypoints" => self.waypoints = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
+            "waypoints" => self.waypoints = value.count_in(1..=64)?,
             "initialisation" => {
                 let words = [("step-cost", Initialisation::StepCost), ("uniform", Initialisation::Uniform)];
-                self.initialisation = value.one_of(&words).ok_or("step-cost or uniform")?;
+                self.initialisation = value.one_of(&words)?;
             }
-            _ => {
-                self.evaluations =
-                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?
-            }
+            _ => self.evaluations = value.count_in(1..=MOST_EVALUATIONS)?,
         }
         Ok(())
     }
@@ -95,48 +85,22 @@ impl Planner for NscPsoPlanner {
     }
 
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
-        let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
-        let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
-        monitor.stage(Stage::JointPath);
-        let choice = EndpointChoice::new(scene.arm(), ends);
-        let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
-        let mut incumbent: Incumbent<'_, Vec<Configuration>> = Incumbent::new(self.evaluations, *monitor);
-        let bounds = choice.bounds(self.waypoints, &[]).map_err(|error| bad(error.to_string()))?;
-        let swarm_settings = SwarmSettings {
+        let swarm = SwarmSettings {
             iterations: ITERATIONS,
             neighbourhood: Neighbourhood::Ring { k: 2 },
             ..SwarmSettings::default()
         };
-        let smoothing = Smoothing::new(self.waypoints);
-        let joints = choice.ranges().len();
-        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        while !incumbent.is_over() {
-            let first = match self.initialisation {
-                Initialisation::StepCost => {
-                    shaken(&choice, &path_objective, self.waypoints, swarm_settings.particles, &mut rng)
-                }
-                Initialisation::Uniform => Vec::new(),
-            };
-            let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
-                .map_err(|error| bad(error.to_string()))?;
-            let mut stagnation = Stagnation::new();
-            while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
-                let mut objective = |x: &[f64]| {
-                    let places = places(x, &choice);
-                    incumbent.evaluate(
-                        || path_objective.violation(&places),
-                        || path_objective.cost(&places),
-                        || certified(scene, places.clone()),
-                    )
-                };
-                swarm.step_shaped(&mut objective, &mut |velocity: &mut [f64]| {
-                    smoothing.smooth(velocity, joints)
-                });
-            }
-        }
-        let (places, effort) = incumbent.end()?;
-        let path = CertifiedPath::as_found(JointPath(places));
-        Ok(Found::new(vec![Candidate::along(scene, path)], Pick::First).with_effort(effort))
+        let count = swarm.particles;
+        let polylines = PolylineSwarm { vias: self.waypoints, evaluations: self.evaluations, swarm };
+        let first = |choice: &EndpointChoice, objective: &PathObjective<'_>, rng: &mut ChaCha8Rng| match self
+            .initialisation
+        {
+            Initialisation::StepCost => shaken(choice, objective, self.waypoints, count, rng),
+            Initialisation::Uniform => Vec::new(),
+        };
+        let (smoothing, joints) = (Smoothing::new(self.waypoints), problem.scene.arm().links());
+        let shape = |velocity: &mut [f64]| smoothing.smooth(velocity, joints);
+        search_polylines(problem, self.name(), &polylines, first, shape)
     }
 }
 

@@ -3,8 +3,7 @@ use std::ops::RangeInclusive;
 use super::off_grid::{Search, over_joints, over_tips};
 use super::over_grid::{Choice, GRID_TOLERANCE, paths_over_grid};
 use crate::path::JointPath;
-use crate::planning::{Candidate, CertifiedPath, Found, Pick, PlanError, Planner, Problem, Round};
-use crate::scene::TwoLinkScene;
+use crate::planning::{Candidate, Found, PathToFollow, Pick, PlanError, Planner, Problem, Round};
 
 /// How far a motion may stray from a taut path before the verifier is asked, in grid steps: it has no zigzag to lose.
 const TAUT_TOLERANCE: f64 = 0.1;
@@ -51,9 +50,10 @@ impl Planner for OptimalPlanner {
         let search = Search::new(round.distance / WALLS_DEEPER, near);
         let over_joints =
             || over_joints(scene, &problem.endpoints, objective, limits, search, problem.monitor);
-        let taut = |path| candidate(scene, path, TAUT_TOLERANCE);
+        let taut = |path| candidate(path, TAUT_TOLERANCE);
         let candidates = if objective.is_in_workspace() {
-            let mut rough: Vec<JointPath> = paths(self.on_grid(problem)?.candidates);
+            let on_grid = self.on_grid(problem)?.candidates;
+            let mut rough: Vec<JointPath> = on_grid.into_iter().filter_map(Candidate::into_path).collect();
             if rough.is_empty() {
                 rough = over_joints()?;
             }
@@ -67,8 +67,7 @@ impl Planner for OptimalPlanner {
             match over_joints() {
                 // The corners are kept to closely, and loosely.
                 Ok(more) => candidates.extend(
-                    more.into_iter()
-                        .flat_map(|path| [candidate(scene, path.clone(), GRID_TOLERANCE), taut(path)]),
+                    more.into_iter().flat_map(|path| [candidate(path.clone(), GRID_TOLERANCE), taut(path)]),
                 ),
                 Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
                 Err(other) => return Err(other),
@@ -91,16 +90,7 @@ impl OptimalPlanner {
     }
 }
 
-fn paths(candidates: Vec<Candidate>) -> Vec<JointPath> {
-    let path = |candidate| match candidate {
-        Candidate::Path { path, .. } => Some(path.path().clone()),
-        Candidate::Motion(_) => None,
-    };
-    candidates.into_iter().filter_map(path).collect()
-}
-
 /// A motion along `path`, or the path itself, with stops, where that costs less.
-fn candidate(scene: TwoLinkScene<'_>, path: JointPath, tolerance: f64) -> Candidate {
-    let tip_travel = path.tip_travel(scene.scene().arm());
-    Candidate::Path { path: CertifiedPath::as_found(path), tip_travel, tolerance, may_stop: true }
+fn candidate(path: JointPath, tolerance: f64) -> Candidate {
+    Candidate::certified(PathToFollow { path, tip_travel: None, tolerance, may_stop: true })
 }

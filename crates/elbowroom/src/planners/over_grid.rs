@@ -6,7 +6,7 @@ use crate::free_space::FreeSpace;
 use crate::geometry::Point;
 use crate::path::JointPath;
 use crate::planning::{
-    Candidate, CertifiedPath, Effort, Found, Objective, Pick, PlanError, Problem, Stage, least_cost,
+    Candidate, Effort, Found, Objective, PathToFollow, Pick, PlanError, Problem, Stage, least_cost,
 };
 use crate::roadmap::PostureGraph;
 use crate::search::{Dstar, Graph, Until};
@@ -136,8 +136,8 @@ pub(super) fn paths_over_grid(
     let mut chosen = joined(own)?;
     chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SHORTLIST));
     let candidate = |(tip_travel, path)| {
-        let path = CertifiedPath::as_found(path);
-        Candidate::Path { path, tip_travel, tolerance: GRID_TOLERANCE, may_stop: false }
+        let tip_travel = Some(tip_travel);
+        Candidate::certified(PathToFollow { path, tip_travel, tolerance: GRID_TOLERANCE, may_stop: false })
     };
     let candidates = chosen.into_iter().map(candidate).collect();
     Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })

@@ -1,18 +1,10 @@
-//! A plain particle swarm over via points in joint space, gbest or lbest: what the paper's planner starts from.
-
 use rand_chacha::ChaCha8Rng;
-use rand_core::{Rng, SeedableRng};
 
 use super::swarms::{
-    EndpointChoice, Incumbent, MOST_EVALUATIONS, PathObjective, Stagnation, around_straight, certified,
-    places,
+    EndpointChoice, MOST_EVALUATIONS, PathObjective, PolylineSwarm, around_straight, search_polylines,
 };
-use crate::arm::Configuration;
-use crate::path::JointPath;
-use crate::planning::{
-    Candidate, CertifiedPath, Found, OptionValue, Pick, PlanError, Planner, Problem, Round, Stage,
-};
-use crate::swarm::{Fitness, Neighbourhood, Swarm, SwarmSettings};
+use crate::planning::{Found, OptionValue, PlanError, Planner, Problem, Round};
+use crate::swarm::{Neighbourhood, SwarmSettings};
 
 /// Iterations over which a swarm's inertia falls.
 const ITERATIONS: usize = 200;
@@ -58,17 +50,14 @@ impl Planner for PsoPlanner {
         ]
     }
 
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), String> {
         match option {
-            "vias" => self.vias = value.count_in(1..=64).ok_or("a whole number from 1 to 64")?,
+            "vias" => self.vias = value.count_in(1..=64)?,
             "neighbourhood" => {
                 let words = [("global", Neighbourhood::Global), ("ring", Neighbourhood::Ring { k: 2 })];
-                self.neighbourhood = value.one_of(&words).ok_or("global or ring")?;
+                self.neighbourhood = value.one_of(&words)?;
             }
-            _ => {
-                self.evaluations =
-                    value.count_in(1..=MOST_EVALUATIONS).ok_or("a whole number from 1 to 1000000000")?
-            }
+            _ => self.evaluations = value.count_in(1..=MOST_EVALUATIONS)?,
         }
         Ok(())
     }
@@ -78,37 +67,16 @@ impl Planner for PsoPlanner {
     }
 
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
-        let bad = |reason: String| PlanError::BadSettings { planner: self.name().to_owned(), reason };
-        let Problem { scene, endpoints: ends, settings, monitor, .. } = problem;
-        monitor.stage(Stage::JointPath);
-        let choice = EndpointChoice::new(scene.arm(), ends);
-        let path_objective = PathObjective::new(scene, settings.objective, ends.keep_posture);
-        let mut incumbent: Incumbent<'_, Vec<Configuration>> = Incumbent::new(self.evaluations, *monitor);
-        let bounds = choice.bounds(self.vias, &[]).map_err(|error| bad(error.to_string()))?;
-        let swarm_settings = SwarmSettings {
+        let swarm = SwarmSettings {
             neighbourhood: self.neighbourhood,
             iterations: ITERATIONS,
             ..SwarmSettings::default()
         };
-        let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
-        while !incumbent.is_over() {
-            let first = around_straight(&choice, self.vias, swarm_settings.particles / 2, &mut rng);
-            let mut swarm = Swarm::<Fitness>::starting_at(&bounds, &swarm_settings, &first, rng.next_u64())
-                .map_err(|error| bad(error.to_string()))?;
-            let mut stagnation = Stagnation::new();
-            while !incumbent.is_over() && stagnation.lasts(swarm.best().1) {
-                swarm.step(&mut |x: &[f64]| {
-                    let places = places(x, &choice);
-                    incumbent.evaluate(
-                        || path_objective.violation(&places),
-                        || path_objective.cost(&places),
-                        || certified(scene, places.clone()),
-                    )
-                });
-            }
-        }
-        let (places, effort) = incumbent.end()?;
-        let path = CertifiedPath::as_found(JointPath(places));
-        Ok(Found::new(vec![Candidate::along(scene, path)], Pick::First).with_effort(effort))
+        let half = swarm.particles / 2;
+        let polylines = PolylineSwarm { vias: self.vias, evaluations: self.evaluations, swarm };
+        let first = |choice: &EndpointChoice, _: &PathObjective<'_>, rng: &mut ChaCha8Rng| {
+            around_straight(choice, self.vias, half, rng)
+        };
+        search_polylines(problem, self.name(), &polylines, first, |_| {})
     }
 }

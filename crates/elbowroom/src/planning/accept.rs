@@ -1,9 +1,10 @@
 //! From what a planner found, paths or motions, to one that is accepted.
 
+use super::candidate::Proposed;
 use super::limits::stated_limits;
 use super::smoothing::{SmoothError, Smoothed, Style, smooth};
 use super::{
-    Candidate, END_ROUNDING, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
+    END_ROUNDING, Found, Mismatch, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
     mismatch,
 };
 use crate::arm::Configuration;
@@ -26,9 +27,11 @@ const LOOKS: [usize; 2] = [24, 3072];
 
 /// A motion that the verifier accepts, and the path it goes along.
 struct Made {
-    smoothed: Smoothed,
+    trajectory: Trajectory,
     joint_path: JointPath,
     path_cost: f64,
+    /// Places of the path that the motion is led through, by their index.
+    vias: Vec<usize>,
 }
 
 /// The plan of `planner` that the best, or the first, of the candidates makes.
@@ -47,15 +50,9 @@ pub(super) fn accepted(
     let mut refused = PlanError::NotFoundInBudget { evaluations };
     let mut best: Option<(f64, Made)> = None;
     for candidate in found.candidates {
-        let made = match candidate {
-            Candidate::Path { path, tip_travel, tolerance, may_stop } => {
-                along(problem, planner, path.path(), tolerance, may_stop).map(|smoothed| Made {
-                    smoothed,
-                    joint_path: path.path().clone(),
-                    path_cost: tip_travel,
-                })
-            }
-            Candidate::Motion(motion) => judged(problem, planner, motion),
+        let made = match candidate.0 {
+            Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified),
+            Proposed::Motion(motion) => judged(problem, planner, motion),
         };
         let made = match made {
             Ok(made) => made,
@@ -65,7 +62,7 @@ pub(super) fn accepted(
                 continue;
             }
         };
-        let trajectory = &made.smoothed.trajectory;
+        let trajectory = &made.trajectory;
         if let Some(mismatch) = mismatched(problem, trajectory) {
             refused = PlanError::Mismatch { planner: planner.to_owned(), mismatch };
             continue;
@@ -78,7 +75,7 @@ pub(super) fn accepted(
             break;
         }
     }
-    let (cost, Made { smoothed, joint_path, path_cost }) = best.ok_or(refused)?;
+    let (cost, Made { trajectory, joint_path, path_cost, vias }) = best.ok_or(refused)?;
     let record = PlanRecord {
         cost,
         lower_bound,
@@ -86,12 +83,12 @@ pub(super) fn accepted(
         paths_to_choose_from: found.chosen_from,
         tip_path: joint_path.tips(scene.arm()),
         joint_path,
-        vias: smoothed.vias,
-        stops: smoothed.stops,
+        vias,
+        stops: trajectory.motion().stops(),
         assumed_limits: problem.assumed_limits.clone(),
         effort: found.effort,
     };
-    Ok(Plan::new(record, smoothed.trajectory))
+    Ok(Plan::new(record, trajectory))
 }
 
 /// How the motion fails to be what was asked for.
@@ -109,28 +106,41 @@ fn mismatched(problem: &Problem<'_>, trajectory: &Trajectory) -> Option<Mismatch
 
 /// Whether one costs less, or the same with more clearance.
 fn is_better((cost, one): (f64, &Made), (known, other): (f64, &Made)) -> bool {
-    let clearance = |made: &Made| {
-        made.smoothed.trajectory.verdict().least_clearance.map_or(f64::INFINITY, |at| at.distance)
-    };
+    let clearance =
+        |made: &Made| made.trajectory.verdict().least_clearance.map_or(f64::INFINITY, |at| at.distance);
     let slack = SAME_COST * known;
     cost < known - slack || (cost <= known + slack && clearance(one) > clearance(other))
 }
 
-/// A motion along `path`.
+/// A motion along a path, whose moves are certified first unless they were.
 fn along(
     problem: &Problem<'_>,
     planner: &str,
-    path: &JointPath,
-    tolerance: f64,
-    may_stop: bool,
+    follow: PathToFollow,
+    is_certified: bool,
+) -> Result<Made, PlanError> {
+    let uncertified = if is_certified { None } else { follow.first_uncertified(problem.scene) };
+    if let Some(from) = uncertified {
+        return Err(PlanError::Uncertified { planner: planner.to_owned(), from });
+    }
+    let smoothed = smoothed(problem, planner, &follow)?;
+    let path_cost = follow.tip_travel(problem.scene.arm());
+    Ok(Made { trajectory: smoothed.trajectory, joint_path: follow.path, path_cost, vias: smoothed.vias })
+}
+
+/// The path, smoothed.
+fn smoothed(
+    problem: &Problem<'_>,
+    planner: &str,
+    PathToFollow { path, tolerance, may_stop, .. }: &PathToFollow,
 ) -> Result<Smoothed, PlanError> {
     let (scene, pace) = (problem.scene, problem.settings.pace);
     let stated = stated_limits(scene.arm());
     let wanted = (pace, problem.endpoints.keep_posture);
     let smooth = |style| smooth(scene, &path.0, &problem.limits, &stated, wanted, style, problem.monitor);
-    let smoothed = smooth(Style::Flowing { tolerance })
+    let smoothed = smooth(Style::Flowing { tolerance: *tolerance })
         .map_err(|error: SmoothError| error.in_terms_of(planner, pace))?;
-    if !(may_stop && is_worth_stopping(problem, path, &smoothed)) {
+    if !(*may_stop && is_worth_stopping(problem, path, &smoothed)) {
         return Ok(smoothed);
     }
     // Closer to the path first, then on it with stops. Straight moves are refused only where the duration is too short for so many
@@ -162,7 +172,7 @@ fn judged(problem: &Problem<'_>, planner: &str, motion: Motion) -> Result<Made, 
         })?;
     let (joint_path, vias) = followed(problem.scene, trajectory.motion());
     let path_cost = trajectory.motion().tip_length(problem.scene.arm());
-    Ok(Made { smoothed: Smoothed { trajectory, vias, stops: 0 }, joint_path, path_cost })
+    Ok(Made { trajectory, joint_path, path_cost, vias })
 }
 
 /// A path along the motion, as dense as its straight moves need to be certified, and its places where pieces meet.

@@ -1,7 +1,5 @@
-use thiserror::Error;
-
 use super::Effort;
-use crate::arm::Configuration;
+use crate::arm::{Arm, Configuration};
 use crate::path::{JointPath, straight_move_is_free};
 use crate::scene::Scene;
 use crate::trajectory::Motion;
@@ -9,72 +7,81 @@ use crate::trajectory::Motion;
 /// How far a motion may stray from a path before the verifier is asked, in grid steps, where the planner does not say.
 const TOLERANCE: f64 = 0.1;
 
-/// A path whose straight moves from configuration to configuration are all proved to be free.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CertifiedPath(JointPath);
-
-/// A path that is not free, or not proved to be.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-#[error("the straight move from place {from} of the path, counted from 0, to the next is not certified free")]
-pub struct Uncertified {
-    /// Index of the configuration it begins at.
-    pub from: usize,
-}
-
-impl CertifiedPath {
-    /// `path`, if every straight move of it is free in `scene`: continuous joints turn by the plain difference.
-    ///
-    /// # Errors
-    /// [`Uncertified`] names the first move that is not, 0 also for a path without configurations or of another arm.
-    pub fn new(scene: &Scene, path: JointPath) -> Result<Self, Uncertified> {
-        let links = scene.arm().links();
-        let ours = |q: &Configuration| q.len() == links && scene.arm().within_limits(q);
-        if path.0.is_empty() || !path.0.iter().all(ours) {
-            return Err(Uncertified { from: path.0.iter().position(|q| !ours(q)).unwrap_or(0) });
-        }
-        let alone = [path.0[0].clone(), path.0[0].clone()];
-        let places = if path.0.len() == 1 { &alone[..] } else { &path.0 };
-        match places.windows(2).position(|pair| !straight_move_is_free(scene, &pair[0], &pair[1])) {
-            Some(from) => Err(Uncertified { from }),
-            None => Ok(Self(path)),
-        }
-    }
-
-    /// A path whose moves were certified as it was found.
-    pub(crate) fn as_found(path: JointPath) -> Self {
-        Self(path)
-    }
-
-    /// Its configurations.
-    pub fn path(&self) -> &JointPath {
-        &self.0
-    }
-}
-
 /// What a planner proposes to be made into a plan.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Candidate {
-    /// A path that a smooth motion is to be led along.
-    #[non_exhaustive]
+pub struct Candidate(pub(super) Proposed);
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Proposed {
+    /// A path whose straight moves are certified free, or have to be.
     Path {
-        /// Free, by proof.
-        path: CertifiedPath,
-        /// Its tip travel as the planner counts it (m).
-        tip_travel: f64,
-        /// How far the motion may stray from it before the verifier is asked, in grid steps.
-        tolerance: f64,
-        /// Whether a motion that stops at the path's corners may be taken where it costs clearly less.
-        may_stop: bool,
+        path: PathToFollow,
+        is_certified: bool,
     },
-    /// A motion to be judged as it is.
     Motion(Motion),
 }
 
+/// A path that a smooth motion is to be led along.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PathToFollow {
+    pub(crate) path: JointPath,
+    /// Its tip travel as the planner counts it (m); `None` for that of its straight moves.
+    pub(crate) tip_travel: Option<f64>,
+    /// How far the motion may stray from it before the verifier is asked, in grid steps.
+    pub(crate) tolerance: f64,
+    /// Whether a motion that stops at the path's corners may be taken where it costs clearly less.
+    pub(crate) may_stop: bool,
+}
+
 impl Candidate {
-    /// A motion is to be led closely along `path`, by `scene`'s arm.
-    pub fn along(scene: &Scene, path: CertifiedPath) -> Self {
-        Self::Path { tip_travel: path.0.tip_travel(scene.arm()), path, tolerance: TOLERANCE, may_stop: false }
+    /// A motion is to be led closely along `path`, whose straight moves have to be free; a continuous joint turns by the plain
+    /// difference.
+    pub fn along(path: JointPath) -> Self {
+        Self(Proposed::Path { path: PathToFollow::closely(path), is_certified: false })
+    }
+
+    /// This motion, as it is.
+    pub fn motion(motion: Motion) -> Self {
+        Self(Proposed::Motion(motion))
+    }
+
+    /// A path whose moves were certified as it was found: planners of this crate alone are taken at their word.
+    pub(crate) fn certified(path: PathToFollow) -> Self {
+        Self(Proposed::Path { path, is_certified: true })
+    }
+
+    /// The path, if it is one.
+    pub(crate) fn into_path(self) -> Option<JointPath> {
+        match self.0 {
+            Proposed::Path { path, .. } => Some(path.path),
+            Proposed::Motion(_) => None,
+        }
+    }
+}
+
+impl PathToFollow {
+    /// To be followed closely.
+    pub(crate) fn closely(path: JointPath) -> Self {
+        Self { path, tip_travel: None, tolerance: TOLERANCE, may_stop: false }
+    }
+
+    /// Its tip travel (m).
+    pub(super) fn tip_travel(&self, arm: &Arm) -> f64 {
+        self.tip_travel.unwrap_or_else(|| self.path.tip_travel(arm))
+    }
+
+    /// The index of the configuration from which the straight move to the next is not certified free, or that is none of the
+    /// arm's; 0 also for a path without configurations.
+    pub(super) fn first_uncertified(&self, scene: &Scene) -> Option<usize> {
+        let places = &self.path.0;
+        let ours = |q: &Configuration| q.len() == scene.arm().links() && scene.arm().within_limits(q);
+        let (Some(first), None) = (places.first(), places.iter().position(|q| !ours(q))) else {
+            return Some(places.iter().position(|q| !ours(q)).unwrap_or(0));
+        };
+        if !straight_move_is_free(scene, first, first) {
+            return Some(0);
+        }
+        places.windows(2).position(|pair| !straight_move_is_free(scene, &pair[0], &pair[1]))
     }
 }
 

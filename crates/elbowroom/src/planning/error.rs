@@ -4,7 +4,7 @@ use super::{Mismatch, NoPath};
 use crate::arm::Posture;
 use crate::free_space::NotFree;
 use crate::geometry::Point;
-use crate::scene::in_words;
+use crate::scene::{TwoLinkError, in_words};
 use crate::search::GoalError;
 use crate::trajectory::MotionError;
 use crate::verify::Verdict;
@@ -155,6 +155,16 @@ pub enum PlanError {
     /// The polynomials overflow.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// A path is not free, or not proved to be: the planner was wrong.
+    #[error(
+        "planner {planner}: the straight move from place {from} of its path, counted from 0, to the next is not certified free"
+    )]
+    Uncertified {
+        /// Its name.
+        planner: String,
+        /// Index of the configuration that it begins at.
+        from: usize,
+    },
     /// The verifier does not accept the motion: the planner was wrong.
     #[error("planner {planner}: its motion is not proved to be safe: {}", complaints(verdict))]
     Refused {
@@ -171,6 +181,18 @@ pub enum PlanError {
         /// What is wrong with it.
         mismatch: Mismatch,
     },
+}
+
+impl PlanError {
+    /// Why `planner`, for two links among obstacles that stand still, does not serve a scene.
+    pub(crate) fn not_two_link(planner: &str, error: TwoLinkError) -> Self {
+        match error {
+            TwoLinkError::Links { found } => {
+                Self::OtherArm { planner: planner.to_owned(), least: 2, most: 2, links: found }
+            }
+            TwoLinkError::Moving { obstacle, name } => Self::Moving { obstacle, name },
+        }
+    }
 }
 
 fn links_in_words(least: usize, most: usize) -> String {

@@ -26,7 +26,8 @@ mod solve;
 
 pub(crate) use bound::least_cost;
 pub use budget::{Budget, Exhausted};
-pub use candidate::{Candidate, CertifiedPath, Found, Pick, Uncertified};
+pub(crate) use candidate::PathToFollow;
+pub use candidate::{Candidate, Found, Pick};
 pub use effort::Effort;
 pub use endpoints::Endpoints;
 pub use error::PlanError;

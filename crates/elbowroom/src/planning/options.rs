@@ -19,19 +19,25 @@ impl OptionValue {
     }
 
     /// The whole number, if it is one within `range`.
-    pub fn count_in(&self, range: RangeInclusive<usize>) -> Option<usize> {
+    ///
+    /// # Errors
+    /// What it may be, in words.
+    pub fn count_in(&self, range: RangeInclusive<usize>) -> Result<usize, String> {
         match self {
-            Self::Count(count) if range.contains(count) => Some(*count),
-            _ => None,
+            Self::Count(count) if range.contains(count) => Ok(*count),
+            _ => Err(format!("a whole number from {} to {}", range.start(), range.end())),
         }
     }
 
     /// What the word stands for, if it is one of `words`.
-    pub fn one_of<T: Copy>(&self, words: &[(&str, T)]) -> Option<T> {
-        match self {
-            Self::Count(_) => None,
-            Self::Word(word) => words.iter().find(|(known, _)| known == word).map(|(_, value)| *value),
-        }
+    ///
+    /// # Errors
+    /// What it may be, in words.
+    pub fn one_of<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, String> {
+        let found = words.iter().find(|(known, _)| matches!(self, Self::Word(word) if word == known));
+        found
+            .map(|(_, value)| *value)
+            .ok_or_else(|| words.iter().map(|(known, _)| *known).collect::<Vec<_>>().join(" or "))
     }
 }
 

@@ -36,9 +36,9 @@ pub trait Planner: std::fmt::Debug + Send + Sync {
     ///
     /// # Errors
     /// What it may be, such as `a whole number from 1 to 64`.
-    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), &'static str> {
+    fn set(&mut self, option: &str, value: &OptionValue) -> Result<(), String> {
         let _ = (option, value);
-        Err("left out: there are no options")
+        Err("left out: there are no options".to_owned())
     }
 
     /// The option that limits how many candidates it judges, if it counts them.

@@ -1,8 +1,9 @@
 use super::{AssumedLimit, Endpoints, Monitor, PlanError, PlanSettings, motion_limits};
-use crate::scene::{Scene, Task, TwoLinkError, TwoLinkScene};
+use crate::scene::{Scene, Task, TwoLinkScene};
 use crate::trajectory::SpeedLimits;
 
 /// What a planner is given to search: a task in a scene whose obstacles stand still, in configurations.
+#[non_exhaustive]
 pub struct Problem<'a> {
     /// Arm and obstacles.
     pub scene: &'a Scene,
@@ -38,12 +39,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// [`PlanError::OtherArm`] in the name of `planner` where the arm has more links.
     pub fn two_link(&self, planner: &str) -> Result<TwoLinkScene<'a>, PlanError> {
-        self.scene.two_link().map_err(|error| match error {
-            TwoLinkError::Links { found } => {
-                PlanError::OtherArm { planner: planner.to_owned(), least: 2, most: 2, links: found }
-            }
-            TwoLinkError::Moving { obstacle, name } => PlanError::Moving { obstacle, name },
-        })
+        self.scene.two_link().map_err(|error| PlanError::not_two_link(planner, error))
     }
 
     /// Whether to go on.

@@ -30,8 +30,6 @@ pub(super) struct Smoothed {
     pub(super) trajectory: Trajectory,
     /// Places of the path that the motion is led through, by their index.
     pub(super) vias: Vec<usize>,
-    /// How many of them, ends left out, it stops at.
-    pub(super) stops: usize,
 }
 
 /// Why there is no motion along a certified path.
@@ -101,9 +99,7 @@ pub(super) fn smooth(
                 // A smooth motion may cut through full stretch where its path only comes near.
                 let changes = if keep_posture { &trajectory.verdict().posture_changes[..] } else { &[] };
                 let Some(&time) = changes.first() else {
-                    let inner = chosen.len().saturating_sub(1);
-                    let stops = (1..inner).filter(|&k| stops[chosen[k]]).count();
-                    return Ok(Smoothed { trajectory, vias: chosen, stops });
+                    return Ok(Smoothed { trajectory, vias: chosen });
                 };
                 // One where two pieces meet may be either's.
                 let around = changes.iter().flat_map(|&time| [time - TICK / 2.0, time]);

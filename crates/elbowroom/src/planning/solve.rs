@@ -2,10 +2,10 @@
 
 use super::accept::accepted;
 use super::bound::least_cost;
-use super::candidate::CertifiedPath;
 use super::plan::check_bound;
 use super::{
-    Candidate, Effort, Found, Monitor, Pick, Plan, PlanError, PlanSettings, Planner, Problem, Round,
+    Candidate, Effort, Found, Monitor, PathToFollow, Pick, Plan, PlanError, PlanSettings, Planner, Problem,
+    Round,
 };
 use crate::path::JointPath;
 use crate::scene::{Scene, Task};
@@ -36,8 +36,8 @@ pub fn plan(
     }
     let problem = Problem::new(scene, task, settings, monitor)?;
     if let Some(q) = problem.endpoints.already_there() {
-        let path = CertifiedPath::as_found(JointPath(vec![q.clone()]));
-        let stay = Found::new(vec![Candidate::along(scene, path)], Pick::First);
+        let stay = PathToFollow::closely(JointPath(vec![q.clone()]));
+        let stay = Found::new(vec![Candidate::certified(stay)], Pick::First);
         let effort = planner.budget().map(|_| Effort::default());
         return accepted(&problem, planner.name(), Found { effort, ..stay }, Some(0.0));
     }

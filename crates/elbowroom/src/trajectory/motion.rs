@@ -116,6 +116,12 @@ impl Motion {
         self.end() - self.start()
     }
 
+    /// How often the arm comes to rest where two pieces meet.
+    pub fn stops(&self) -> usize {
+        let begins_at_rest = |piece: &&Piece| piece.coefficients.iter().all(|terms| terms[1] == 0.0);
+        self.pieces.iter().skip(1).filter(begins_at_rest).count()
+    }
+
     /// Positions (rad) at the start and at `count` even instants of each piece, its end the last.
     pub(crate) fn instants(&self, count: usize) -> Vec<Vec<f64>> {
         let first = self.at(self.start()).position;

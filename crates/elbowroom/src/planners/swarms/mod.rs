@@ -8,7 +8,7 @@ mod polyline;
 pub(super) use endpoint_choice::EndpointChoice;
 pub(super) use incumbent::{Incumbent, Stagnation};
 pub(super) use path_objective::PathObjective;
-pub(super) use polyline::{around_straight, certified, places};
+pub(super) use polyline::{PolylineSwarm, around_straight, search_polylines};
 
 /// The most candidates that a planner may be told to judge.
 pub(super) const MOST_EVALUATIONS: usize = 1_000_000_000;

@@ -6,9 +6,8 @@ use rand_core::{Rng, SeedableRng};
 use super::inverse_swarm::{InverseSwarmSettings, Previous, inverse_by_swarm};
 use crate::arm::{Configuration, Posture, joint_distance};
 use crate::geometry::Point;
-use crate::path::Penetration;
-use crate::path::{JointPath, straight_move_is_free};
-use crate::planning::{Budget, Candidate, CertifiedPath, Exhausted, Found, Pick};
+use crate::path::{Penetration, straight_move_is_free};
+use crate::planning::{Budget, Exhausted};
 use crate::random::{below, unit};
 use crate::scene::Scene;
 
@@ -42,15 +41,6 @@ impl<'a> LocalPlanner<'a> {
         let [_, reach] = scene.arm().reach();
         let contacts = Penetration::new(scene, MARGIN * reach);
         Self { scene, budget, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
-    }
-
-    /// The cheapest of `paths`, each with its estimated cost, `most` of them: the first that is accepted will do.
-    pub(in crate::planners) fn found(self, mut paths: Vec<(f64, JointPath)>, most: usize) -> Found {
-        paths.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let chosen_from = paths.len();
-        let candidate = |(_, path)| Candidate::along(self.scene, CertifiedPath::as_found(path));
-        let candidates = paths.into_iter().take(most).map(candidate).collect();
-        Found { candidates, pick: Pick::First, chosen_from, effort: Some(self.budget.effort()) }
     }
 
     /// Where the tip is at `q`.

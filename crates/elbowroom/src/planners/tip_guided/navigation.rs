@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::arm::{Arm, JointLimits};
+use crate::arm::{Arm, Configuration, JointLimits};
 use crate::geometry::{Point, Segment};
 use crate::grid::Grid;
-use crate::planning::{Monitor, PlanError};
+use crate::planning::{Monitor, PlanError, Problem};
 use crate::scene::Scene;
 use crate::search::{Dstar, Graph, Until};
 
@@ -56,15 +56,23 @@ pub(in crate::planners) struct NavigationFunction {
 }
 
 impl NavigationFunction {
+    /// To the goals of `problem`, and to its starts.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new)
+    pub(in crate::planners) fn both_ways(problem: &Problem<'_>) -> Result<[Self; 2], PlanError> {
+        let Problem { scene, endpoints, monitor, .. } = problem;
+        let tips = |ends: &[Configuration]| ends.iter().map(|q| scene.arm().tip(q)).collect::<Vec<_>>();
+        let to_goals = Self::new(scene, &tips(&endpoints.goals), *monitor)?;
+        let to_starts = to_goals.towards(&tips(&endpoints.starts))?;
+        Ok([to_goals, to_starts])
+    }
+
     /// The way to any of `goals`, tips all.
     ///
     /// # Errors
     /// [`PlanError::Stopped`], [`PlanError::NotFound`] where the grid has no free cell near a goal
-    pub(in crate::planners) fn new(
-        scene: &Scene,
-        goals: &[Point],
-        monitor: &dyn Monitor,
-    ) -> Result<Self, PlanError> {
+    fn new(scene: &Scene, goals: &[Point], monitor: &dyn Monitor) -> Result<Self, PlanError> {
         let cells = TipCells { grid: *scene.grid(), weight: weights(scene, monitor)? };
         let mut guide = Self { field: Dstar::new(cells.len()), cells };
         guide.aim(goals)?;
@@ -72,7 +80,7 @@ impl NavigationFunction {
     }
 
     /// The same cells, as they are now, with the way to `goals`.
-    pub(in crate::planners) fn towards(&self, goals: &[Point]) -> Result<Self, PlanError> {
+    fn towards(&self, goals: &[Point]) -> Result<Self, PlanError> {
         let mut guide = Self { field: Dstar::new(self.cells.len()), cells: self.cells.clone() };
         guide.aim(goals)?;
         Ok(guide)
