@@ -12,6 +12,8 @@ use elbowroom::free_space::reason_against;
 use elbowroom::planners::{DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner};
 use elbowroom::planning::{Endpoints, Objective, Plan, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Place, Scene, TaskPosture};
+use elbowroom::trajectory::{Motion, Piece};
+use elbowroom::verify::{Quantity, Trajectory, VerifySettings, Violation, verify};
 
 fn asked(scene: &Scene, task: &str, planner: &dyn Planner, objective: Objective, seed: u64) -> Plan {
     let settings = PlanSettings { objective, seed, ..PlanSettings::default() };
@@ -111,5 +113,34 @@ fn optimal_tries_several_clearances() {
     ] {
         let plan = asked(&example(scene), task, &OptimalPlanner, objective, 0);
         assert!(plan.cost() < most, "{scene}, {task}: {}", plan.cost());
+    }
+}
+
+#[test]
+fn a_trajectory_has_no_jump_in_acceleration_whatever_is_asked_for() {
+    let scene = build::scene(build::arm(&[1.0, 0.5]), vec![]);
+    // Straight out and back: the velocity jumps; a cubic from rest to rest: the acceleration jumps where two meet.
+    let straight = |start: f64, from: [f64; 2], to: [f64; 2]| Piece {
+        start,
+        duration: 1.0,
+        coefficients: [0, 1].map(|j| [from[j], to[j] - from[j], 0.0, 0.0, 0.0, 0.0]).to_vec(),
+    };
+    let corner =
+        Motion::new(vec![straight(0.0, [0.0, 0.0], [0.5, 0.2]), straight(1.0, [0.5, 0.2], [0.0, 0.0])]);
+    let cubic = |start: f64, from: f64, to: f64| Piece {
+        start,
+        duration: 1.0,
+        coefficients: vec![[from, 0.0, 3.0 * (to - from), -2.0 * (to - from), 0.0, 0.0], [0.0; 6]],
+    };
+    let cubics = Motion::new(vec![cubic(0.0, 0.0, 0.4), cubic(1.0, 0.4, 0.3)]);
+    for (motion, allowed) in [(corner, Quantity::Position), (cubics, Quantity::Velocity)] {
+        let motion = motion.unwrap();
+        let settings = VerifySettings { continuous: allowed, ..VerifySettings::default() };
+        assert!(verify(&scene, &motion, &settings).is_safe(), "a curve of this kind may do so");
+        let refused = Trajectory::certify(&scene, motion, &settings).unwrap_err();
+        assert!(
+            refused.violations.iter().any(|violation| matches!(violation, Violation::Discontinuity { .. })),
+            "{refused:?}"
+        );
     }
 }

@@ -378,29 +378,3 @@ fn a_certified_trajectory_keeps_its_motion() {
     assert!(certified.verdict().is_safe() && certified.verdict().least_clearance.is_none());
     assert_eq!(certified.into_motion(), motion);
 }
-
-#[test]
-fn a_trajectory_has_no_jump_in_acceleration_whatever_is_asked_for() {
-    let scene = scene(0.0, vec![]);
-    // Straight out and back: the velocity jumps; a cubic from rest to rest: the acceleration jumps where two meet.
-    let corner = Motion::new(vec![
-        straight(0.0, 1.0, [0.0, 0.0], [0.5, 0.2]),
-        straight(1.0, 1.0, [0.5, 0.2], [0.0, 0.0]),
-    ]);
-    let cubic = |start: f64, from: f64, to: f64| Piece {
-        start,
-        duration: 1.0,
-        coefficients: vec![[from, 0.0, 3.0 * (to - from), -2.0 * (to - from), 0.0, 0.0], [0.0; 6]],
-    };
-    let cubics = Motion::new(vec![cubic(0.0, 0.0, 0.4), cubic(1.0, 0.4, 0.3)]);
-    for (motion, allowed) in [(corner, Quantity::Position), (cubics, Quantity::Velocity)] {
-        let motion = motion.unwrap();
-        let settings = VerifySettings { continuous: allowed, ..VerifySettings::default() };
-        assert!(verify(&scene, &motion, &settings).is_safe(), "a curve of this kind may do so");
-        let refused = Trajectory::certify(&scene, motion, &settings).unwrap_err();
-        assert!(
-            refused.violations.iter().any(|violation| matches!(violation, Violation::Discontinuity { .. })),
-            "{refused:?}"
-        );
-    }
-}
