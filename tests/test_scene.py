@@ -117,7 +117,7 @@ TURNING = er.Joint(continuous=True)
         (lambda: er.Joint(), "joint", "either continuous=True, or min and max"),
         (lambda: er.Joint(min=2.0, max=1.0), "joint", "lower limit 2 rad is above upper limit 1 rad"),
         (lambda: BEND.replace(continuous=True), "joint", "either continuous=True, or min and max"),
-        (lambda: TURNING.replace(jerk=0.0), "joint.jerk", "0; it must be finite and greater than 0"),
+        (lambda: TURNING.replace(jerk=0.0), "joint.jerk", "greatest jerk is 0, it must be finite and greater than 0"),
         (lambda: TURNING.replace(velocity=math.nan), "joint.velocity", "NaN; it must be finite"),
         (lambda: er.Arm(links=(0.1, 0.2, 0.3), joints=(TURNING,) * 2), "arm", "2 joints for 3 links"),
         (lambda: er.Circle(center=(0.0, 0.0), radius=-1.0), "circle", "radius -1 m"),

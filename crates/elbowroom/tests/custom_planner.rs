@@ -11,10 +11,12 @@ mod distance;
 
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
+use std::sync::Mutex;
 
 use chain_judge::assert_true;
 use elbowroom::arm::Configuration;
 use elbowroom::path::JointPath;
+use elbowroom::planners::{DstarPlanner, OptimalPlanner};
 use elbowroom::planning::{
     Candidate, Effort, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanSettings, Planner, Problem, Round,
     Unwatched, plan,
@@ -236,4 +238,57 @@ fn what_a_planner_is_not_for_is_said_before_it_is_asked() {
     let five = build::example("five-links");
     let failed = asked(&five, &FiveLinks, &PlanSettings::default()).unwrap_err();
     assert_eq!(failed.to_string(), "planner five failed: no idea");
+}
+
+/// Proposes one motion after the other, a round each, and remembers what it was told.
+#[derive(Debug)]
+struct InRounds {
+    distances: Vec<f64>,
+    motions: Vec<Motion>,
+    told: Mutex<Vec<Round>>,
+}
+
+impl Planner for InRounds {
+    fn name(&self) -> &str {
+        "in-rounds"
+    }
+
+    fn rounds(&self) -> &[f64] {
+        &self.distances
+    }
+
+    fn search(&self, _: &Problem<'_>, round: Round) -> Result<Found, PlanError> {
+        let mut told = self.told.lock().unwrap();
+        told.push(round);
+        let motion = self.motions[told.len() - 1].clone();
+        Ok(Found::new(vec![Candidate::motion(motion)], Pick::First))
+    }
+}
+
+#[test]
+fn rounds_go_on_until_the_gap_is_reached_with_the_best_motion_and_the_best_bound_of_all() {
+    let scene = build::example("paper-standin");
+    let planned = |planner: &dyn Planner| {
+        asked(&scene, planner, &PlanSettings::default()).unwrap().trajectory().motion().clone()
+    };
+    let (longer, shorter) = (planned(&DstarPlanner), planned(&OptimalPlanner));
+    // The second proof is the best, the third a weak one.
+    let distances = vec![3e-2, 1e-4, 5e-2];
+    let run = |motions: [&Motion; 3], gap: Option<f64>| {
+        let motions = motions.map(Motion::clone).to_vec();
+        let planner = InRounds { distances: distances.clone(), motions, told: Mutex::default() };
+        let plan = asked(&scene, &planner, &PlanSettings { gap, ..PlanSettings::default() }).unwrap();
+        (plan, planner.told.into_inner().unwrap())
+    };
+    for motions in [[&longer, &shorter, &longer], [&shorter, &longer, &longer]] {
+        let (plan, told) = run(motions, Some(0.0));
+        assert_eq!(plan.trajectory().motion(), &shorter);
+        assert_eq!(told.iter().map(|round| round.distance).collect::<Vec<_>>(), distances);
+        let bounds: Vec<f64> = told.iter().map(|round| round.lower_bound.unwrap()).collect();
+        assert!(bounds[0] < bounds[1] && bounds[1] == bounds[2], "{bounds:?}");
+        assert_eq!(plan.lower_bound(), Some(bounds[1]));
+    }
+    let (plan, told) = run([&shorter, &longer, &longer], Some(0.5));
+    assert!(told.len() == 1 && plan.gap().unwrap() <= 0.5, "near enough at once");
+    assert_eq!(run([&longer, &shorter, &shorter], None).1.len(), 1, "nobody asked for a gap");
 }

@@ -44,13 +44,11 @@ impl Joint {
             }
             _ => return Err(errors::part(py, "joint", "either continuous=True, or min and max")),
         };
-        for (rate, limit) in [("velocity", velocity), ("acceleration", acceleration), ("jerk", jerk)] {
-            if let Some(limit) = limit.filter(|limit| !(limit.is_finite() && *limit > 0.0)) {
-                let message = format!("{limit}; it must be finite and greater than 0");
-                return Err(errors::part(py, &format!("joint.{rate}"), &message));
-            }
-        }
         let motion = MotionLimits { velocity, acceleration, jerk };
+        let refused = |error: arm::MotionLimitError| {
+            errors::part(py, &format!("joint.{}", error.rate), &error.to_string())
+        };
+        motion.check().map_err(refused)?;
         Ok(made(Self { joint: arm::Joint { limits, motion } }))
     }
 

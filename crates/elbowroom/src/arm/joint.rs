@@ -131,8 +131,11 @@ pub struct MotionLimitError {
 }
 
 impl MotionLimits {
-    /// What is wrong with them, if anything: every arm asks.
-    pub(super) fn check(&self) -> Result<(), MotionLimitError> {
+    /// Refuses rates that are none: every arm asks.
+    ///
+    /// # Errors
+    /// [`MotionLimitError`] names the first that is not finite, or not greater than 0.
+    pub fn check(&self) -> Result<(), MotionLimitError> {
         let rates = [("velocity", self.velocity), ("acceleration", self.acceleration), ("jerk", self.jerk)];
         let wrong = |(rate, limit): (&'static str, Option<f64>)| {
             limit.filter(|value| !(value.is_finite() && *value > 0.0)).map(|value| (rate, value))
