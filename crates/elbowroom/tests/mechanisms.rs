@@ -9,8 +9,8 @@ mod build;
 use build::{example, tip};
 use elbowroom::arm::{Joint, MotionLimits};
 use elbowroom::free_space::reason_against;
-use elbowroom::planners::{DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner};
-use elbowroom::planning::{Endpoints, Objective, Plan, PlanSettings, Planner, Unwatched, plan};
+use elbowroom::planners::{DstarPlanner, DstarPsoPlanner, GuidedRrtConnectPlanner, OptimalPlanner};
+use elbowroom::planning::{Endpoints, Objective, Plan, PlanError, PlanSettings, Planner, Unwatched, plan};
 use elbowroom::scene::{Place, Scene, TaskPosture};
 use elbowroom::trajectory::{Motion, Piece};
 use elbowroom::verify::{Quantity, Trajectory, VerifySettings, Violation, verify};
@@ -113,6 +113,55 @@ fn optimal_tries_several_clearances() {
     ] {
         let plan = asked(&example(scene), task, &OptimalPlanner, objective, 0);
         assert!(plan.cost() < most, "{scene}, {task}: {}", plan.cost());
+    }
+}
+
+#[test]
+fn a_motion_is_tried_closer_to_the_path_before_one_that_stops_at_its_corners() {
+    // Straight to the stops, this one rests 20 times.
+    let plan =
+        asked(&example("abb-irb-910sc-065"), "place", &OptimalPlanner, Objective::Joint, 0).record().stops;
+    assert_eq!(plan, 0);
+}
+
+#[test]
+fn the_swarm_hands_on_more_than_its_best_path() {
+    // The best drawn path alone becomes motions of 0.8172 m and 0.8278 m.
+    for (scene, most) in [("narrow", 0.812), ("paper-standin", 0.815)] {
+        let plan = asked(&example(scene), "second", &DstarPsoPlanner::default(), Objective::Tip, 1);
+        assert!(plan.cost() < most, "{scene}: {}", plan.cost());
+    }
+}
+
+#[test]
+fn optimal_goes_on_until_the_gap_is_as_small_as_asked_for() {
+    let scene = example("paper-standin");
+    let task = scene.task("first").unwrap();
+    for gap in [0.05, 0.01, 0.001] {
+        let settings =
+            PlanSettings { objective: Objective::Joint, gap: Some(gap), ..PlanSettings::default() };
+        let plan = plan(&scene, task, &OptimalPlanner, &settings, &Unwatched).unwrap();
+        assert!(plan.gap().unwrap() <= gap, "{gap}: {:?}", plan.gap());
+    }
+}
+
+#[test]
+fn walls_of_any_thickness_are_a_proof_that_there_is_no_path() {
+    // Link 1 meets a post on the way, a wall as wide as the angle under which the post is seen.
+    let limited = build::joint(build::stops(-1.0, 1.0));
+    let at = |first: f64| Place::Configuration([first, 0.5].into());
+    for width in [0.2, 2e-2, 2e-3, 2e-4, 2e-5] {
+        let post = build::circle(0.3, 0.0, 0.3 * f64::sin(width / 2.0));
+        let scene = build::scene(build::arm_of(&[0.5, 0.4], 0.0, &[limited; 2]), vec![post]);
+        let task = build::task("across", at(-0.5), at(0.5), TaskPosture::Any);
+        for planner in [&DstarPlanner as &dyn Planner, &OptimalPlanner] {
+            let answer = plan(&scene, &task, planner, &PlanSettings::default(), &Unwatched);
+            assert!(
+                matches!(answer, Err(PlanError::NoPath(_))),
+                "{}, {width} rad: {answer:?}",
+                planner.name()
+            );
+        }
     }
 }
 
