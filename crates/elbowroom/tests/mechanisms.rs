@@ -147,18 +147,18 @@ fn optimal_goes_on_until_the_gap_is_as_small_as_asked_for() {
 
 #[test]
 fn walls_of_any_thickness_are_a_proof_that_there_is_no_path() {
-    // Link 1 meets a post on the way, a wall as wide as the angle under which the post is seen.
-    let limited = build::joint(build::stops(-1.0, 1.0));
-    let at = |first: f64| Place::Configuration([first, 0.5].into());
-    for width in [0.2, 2e-2, 2e-3, 2e-4, 2e-5] {
-        let post = build::circle(0.3, 0.0, 0.3 * f64::sin(width / 2.0));
-        let scene = build::scene(build::arm_of(&[0.5, 0.4], 0.0, &[limited; 2]), vec![post]);
-        let task = build::task("across", at(-0.5), at(0.5), TaskPosture::Any);
+    // Bent by no more than 0.8 rad, link 2 sweeps over a post at 0.7 m wherever joint 1 turns past it.
+    let joints = [build::joint(build::stops(-1.5, 1.5)), build::joint(build::stops(-0.8, 0.8))];
+    let at = |first: f64| Place::Configuration([first, 0.3].into());
+    for radius in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+        let scene =
+            build::scene(build::arm_of(&[0.5, 0.5], 0.0, &joints), vec![build::circle(0.7, 0.0, radius)]);
+        let task = build::task("across", at(-1.2), at(1.2), TaskPosture::Any);
         for planner in [&DstarPlanner as &dyn Planner, &OptimalPlanner] {
             let answer = plan(&scene, &task, planner, &PlanSettings::default(), &Unwatched);
             assert!(
                 matches!(answer, Err(PlanError::NoPath(_))),
-                "{}, {width} rad: {answer:?}",
+                "{}, {radius} m: {answer:?}",
                 planner.name()
             );
         }
