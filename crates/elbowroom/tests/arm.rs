@@ -52,7 +52,10 @@ fn limits_that_are_none_are_refused_by_the_joint_s_number() {
         ] {
             assert!(matches!(refused(min, max), JointLimitsError::OutsideRange { .. }), "{min} {max}");
         }
-        for (min, max) in [(-turns, turns), (0.0, 0.0), (-0.0, 0.0)] {
+        for (min, max) in [(-turns, turns), (-130.0, 130.0), (0.0, 20.0 * TAU + 1e-6)] {
+            assert_eq!(refused(min, max), JointLimitsError::TooWide { min, max });
+        }
+        for (min, max) in [(turns - 20.0 * TAU, turns), (-10.0 * TAU, 10.0 * TAU), (0.0, 0.0), (-0.0, 0.0)] {
             assert!(with_joint(number, build::joint(JointLimits::Range { min, max })).is_ok(), "{min} {max}");
         }
     }

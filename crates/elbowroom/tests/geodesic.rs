@@ -286,6 +286,29 @@ fn maps_that_wrap_round_agree_with_their_copies_side_by_side() {
 }
 
 #[test]
+fn pillars_that_can_be_passed_on_either_side_do_not_double_the_search() {
+    // 2^40 paths cost the same.
+    let (columns, rows) = (81, 3);
+    let blocked = (0..columns * rows).map(|i| i / columns == 1 && i % columns % 2 == 1).collect();
+    let (mesh, number) = Squares { columns, rows, blocked }.mesh(false);
+    let place = |column: usize| {
+        let point = Point::new(column as f64 + 0.5, 1.5);
+        MeshPoint { cell: number[columns + column], point }
+    };
+    for measure in measures() {
+        let asked = std::cell::Cell::new(0);
+        let keep_going = || asked.replace(asked.get() + 1) < 100;
+        let path = geodesic(&mesh, &[place(0)], &[place(columns - 1)], measure, &[], &keep_going).unwrap();
+        let expected = match measure {
+            // To the first pillar's corner, along the row of pillars, and back.
+            Measure::Euclidean => 79.0 + 2.0 * 0.5_f64.sqrt(),
+            Measure::Greatest(_) => 80.0,
+        };
+        assert!((path.cost - expected).abs() < 1e-9, "{}", path.cost);
+    }
+}
+
+#[test]
 fn what_is_no_surface_is_refused() {
     let square = |across: Option<Across>| -> Vec<Side> {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];

@@ -10,6 +10,9 @@ const LIMIT_ROUNDING: f64 = 1e-12;
 /// Widest range of a joint with stops (rad); beyond it angles lose the digits the checks rely on.
 const WIDEST_RANGE: f64 = 1e3 * TAU;
 
+/// Most turns that a range may hold: more is angles in another unit, or a joint without stops, and planning time grows with it.
+const MOST_TURNS: f64 = 20.0;
+
 /// Where a joint may turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum JointLimits {
@@ -30,6 +33,17 @@ pub enum JointLimitsError {
     /// Infinite, not a number, or further than a thousand turns from 0.
     #[error("limits are {min} rad to {max} rad, they must lie within a thousand turns of 0")]
     OutsideRange {
+        /// Lower stop (rad).
+        min: f64,
+        /// Upper stop (rad).
+        max: f64,
+    },
+    /// More than 20 turns apart.
+    #[error(
+        "limits from {min} rad to {max} rad are {:.1} turns apart, more than 20: is that degrees? A joint without limits is continuous",
+        (max - min) / TAU
+    )]
+    TooWide {
         /// Lower stop (rad).
         min: f64,
         /// Upper stop (rad).
@@ -63,6 +77,10 @@ impl JointLimits {
                 Err(JointLimitsError::OutsideRange { min, max })
             }
             Self::Range { min, max } if min > max => Err(JointLimitsError::Reversed { min, max }),
+            // 20 turns written in degrees are still 20 turns.
+            Self::Range { min, max } if (max - min) / TAU > MOST_TURNS + 1e-9 => {
+                Err(JointLimitsError::TooWide { min, max })
+            }
             Self::Range { .. } => Ok(()),
         }
     }

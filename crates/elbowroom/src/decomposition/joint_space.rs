@@ -64,17 +64,14 @@ impl JointSpaceCells {
     ) -> Option<Self> {
         let slices = Slices::new(scene, margin);
         let forbidden = |x: f64| slices.second_joint(x, range);
-        let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST };
+        let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST, keep_going };
         let rounds = [
             scene.arm().joints()[0].limits == JointLimits::Continuous,
             scene.arm().joints()[1].limits == JointLimits::Continuous && range == [-PI, PI],
         ];
         let mut stretches = Vec::new();
         for (ends, round) in open_stretches(scene, &slices, approximation) {
-            if !keep_going() {
-                return None;
-            }
-            stretches.push(Stretch { slabs: cutter.slabs(ends[0], ends[1]), round });
+            stretches.push(Stretch { slabs: cutter.slabs(ends[0], ends[1])?, round });
         }
         Some(Self { connected: connect(stretches, range, rounds[1]).ok()?, rounds })
     }

@@ -55,6 +55,8 @@ pub(crate) struct Cutter<'a> {
     pub(crate) range: [f64; 2],
     /// How wide the slabs are that are begun with.
     pub(crate) widest: f64,
+    /// Asked before every slice.
+    pub(crate) keep_going: &'a dyn Fn() -> bool,
 }
 
 /// A place of the first coordinate with what is closed there.
@@ -65,21 +67,24 @@ struct Slice {
 }
 
 impl Cutter<'_> {
-    /// Slabs from `from` to `to`, each as wide as its walls stay near enough to the obstacles.
-    pub(crate) fn slabs(&self, from: f64, to: f64) -> Vec<Slab> {
+    /// Slabs from `from` to `to`, each as wide as its walls stay near enough to the obstacles; `None` where `keep_going` said no.
+    pub(crate) fn slabs(&self, from: f64, to: f64) -> Option<Vec<Slab>> {
         let count = ((to - from) / self.widest).ceil().max(1.0);
         let mut slabs = Vec::new();
-        let mut left = self.slice(from);
+        let mut left = self.slice(from)?;
         for i in 1..=count as usize {
             let x = if i as f64 == count { to } else { from + (to - from) * (i as f64 / count) };
-            let right = self.slice(x);
-            self.cut(&left, &right, &mut slabs);
+            let right = self.slice(x)?;
+            self.cut(&left, &right, &mut slabs)?;
             left = right;
         }
-        slabs
+        Some(slabs)
     }
 
-    fn slice(&self, x: f64) -> Slice {
+    fn slice(&self, x: f64) -> Option<Slice> {
+        if !(self.keep_going)() {
+            return None;
+        }
         let [low, high] = self.range;
         let Approximation { is_inner, distance } = self.approximation;
         let mut closed: Vec<[f64; 2]> = Vec::new();
@@ -97,26 +102,28 @@ impl Cutter<'_> {
                 _ => closed.push([from, to]),
             }
         }
-        Slice { x, closed }
+        Some(Slice { x, closed })
     }
 
-    fn cut(&self, left: &Slice, right: &Slice, slabs: &mut Vec<Slab>) {
-        let middle = self.slice(0.5 * (left.x + right.x));
-        let between = |share: f64| self.slice(left.x + (right.x - left.x) * share);
+    fn cut(&self, left: &Slice, right: &Slice, slabs: &mut Vec<Slab>) -> Option<()> {
+        let middle = self.slice(0.5 * (left.x + right.x))?;
         // An edge may bend off the middle: quarters tell.
-        let is_straight = self.is_straight(left, &middle, right, 0.5)
-            && [0.25, 0.75].into_iter().all(|share| self.is_straight(left, &between(share), right, share));
+        let mut is_straight = self.is_straight(left, &middle, right, 0.5);
+        for share in [0.25, 0.75] {
+            is_straight = is_straight
+                && self.is_straight(left, &self.slice(left.x + (right.x - left.x) * share)?, right, share);
+        }
         let barriers = if is_straight {
             let ends = left.closed.iter().zip(&right.closed);
             ends.map(|(&left, &right)| Barrier { left, right }).collect()
         } else if right.x - left.x > NARROWEST * self.approximation.distance {
-            self.cut(left, &middle, slabs);
-            self.cut(&middle, right, slabs);
-            return;
+            self.cut(left, &middle, slabs)?;
+            return self.cut(&middle, right, slabs);
         } else {
             self.squared([left, &middle, right])
         };
         slabs.push(Slab { x: [left.x, right.x], barriers });
+        Some(())
     }
 
     /// Whether what is closed goes straight from `left` to `right`, nearly, by what it is at `share` of the way.
@@ -129,7 +136,7 @@ impl Cutter<'_> {
             let (a, m, b) = (left.closed[i], between.closed[i], right.closed[i]);
             let near = SLACK * self.approximation.distance.min((m[1] - m[0]) / 2.0);
             let off = |end: usize| a[end] + (b[end] - a[end]) * share - m[end];
-            overlap(a, m) && overlap(m, b) && (0..2).all(|end| off(end).abs() <= near)
+            (0..2).all(|end| off(end).abs() <= near)
         })
     }
 
@@ -151,8 +158,4 @@ impl Cutter<'_> {
 fn in_both(a: &[[f64; 2]], b: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let pairs = a.iter().flat_map(|a| b.iter().map(|b| [a[0].max(b[0]), a[1].min(b[1])]));
     pairs.filter(|[from, to]| to > from).collect()
-}
-
-fn overlap(a: [f64; 2], b: [f64; 2]) -> bool {
-    a[0] <= b[1] && b[0] <= a[1]
 }

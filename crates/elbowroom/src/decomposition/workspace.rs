@@ -33,11 +33,8 @@ pub(crate) fn workspace_cells(
         merged(found)
     };
     let approximation = Approximation { distance: approximation.distance * reach, ..approximation };
-    let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST * reach };
-    if !keep_going() {
-        return None;
-    }
-    let slabs = cutter.slabs(base.x - reach, base.x + reach);
+    let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST * reach, keep_going };
+    let slabs = cutter.slabs(base.x - reach, base.x + reach)?;
     connect(vec![Stretch { slabs, round: false }], range, false).ok()
 }
 

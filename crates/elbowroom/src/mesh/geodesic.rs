@@ -2,16 +2,14 @@
 //! stretch is seen. Nothing is discretised: the result is exact up to rounding, and rounding lets paths see past
 //! corners rather than hide behind them.
 
-use std::collections::BinaryHeap;
+use std::collections::{BinaryHeap, HashMap};
 
 use super::Measure;
 use super::cells::{Across, NONE, NavigationMesh};
+use super::crossed::{Crossed, with_rounding};
 use super::node::{Bent, Goal, Node, Waiting};
 use super::sight::{below, crossing_of, seen, snapped};
 use crate::geometry::{Point, Vector};
-
-/// Costs that differ by less than this share are the same: paths to one vertex may differ in what they see beyond.
-const COST_ROUNDING: f64 = 1e-12;
 
 /// How near to a vertex a ray meets it, in roundings of the mesh.
 const SNAP: f64 = 10.0;
@@ -73,6 +71,7 @@ pub fn geodesic(
         waiting: BinaryHeap::new(),
         costs: vec![f64::INFINITY; mesh.sides.len()],
         turned: vec![[f64::INFINITY; 2]; mesh.sides.len()],
+        crossed: HashMap::new(),
     };
     for goal in &goals {
         search.goals_in[goal.cell].push(goal.point);
@@ -115,6 +114,8 @@ struct Search<'a> {
     /// Least cost at which each side was crossed right beside a bend at its right and its left end: going round a vertex
     /// ends there.
     turned: Vec<[f64; 2]>,
+    /// What was pushed beyond each side from each bend.
+    crossed: HashMap<(u32, u32), Crossed>,
 }
 
 /// What of a cell is seen from the last bend through a stretch of one side.
@@ -279,6 +280,14 @@ impl Search<'_> {
             }
             *turned = cost;
         }
+        // Paths of the same cost to one bend see the same beyond it: without this they would double at every obstacle that can
+        // be passed on either side at the same cost.
+        if root_vertex != NONE {
+            let crossed = self.crossed.entry((side as u32, root_vertex)).or_default();
+            if !crossed.is_more(cost, [from, to]) {
+                return;
+            }
+        }
         let next = Node {
             cell: across.cell as u32,
             side: self.mesh.begins[across.cell] + across.side as u32,
@@ -374,9 +383,4 @@ fn view(node: &Node) -> View {
     } else {
         View::All
     }
-}
-
-/// The most that `cost` may come to when it is summed up on another way.
-fn with_rounding(cost: f64) -> f64 {
-    cost * (1.0 + COST_ROUNDING)
 }

@@ -1,6 +1,7 @@
 //! Shortest paths among walls on flat navigation meshes: convex cells joined along their sides.
 
 mod cells;
+mod crossed;
 mod geodesic;
 mod measure;
 mod node;

@@ -16,6 +16,9 @@ pub(super) struct Blocked<'a> {
     bodies: Vec<(Body<'a>, f64)>,
 }
 
+/// Between so many halvings what touches is halved on without a look at what else does, which may be deeper.
+const HALVINGS_PER_LOOK: u32 = 4;
+
 /// What blocked the last configuration: it likely blocks the next.
 type Witness = Option<(usize, usize)>;
 
@@ -64,9 +67,19 @@ impl<'a> Blocked<'a> {
         let first = self.lengths[0] * turn[0].abs();
         let bounds = [first, first + self.lengths[1] * (turn[0] + turn[1]).abs()];
         let axes = self.axes(&middle);
-        let known = witness.map(|(link, body)| self.depth(&axes, link, body) - bounds[link]);
-        if known.is_some_and(|spare| spare > 0.0) {
-            return true;
+        let halves = |witness: &mut Witness| {
+            depth < DEEPEST
+                && self.between(from, &middle, witness, depth + 1)
+                && self.between(&middle, to, witness, depth + 1)
+        };
+        if let Some((link, body)) = *witness {
+            let known = self.depth(&axes, link, body);
+            if known > bounds[link] {
+                return true;
+            }
+            if known > 0.0 && !depth.is_multiple_of(HALVINGS_PER_LOOK) {
+                return halves(witness);
+            }
         }
         let mut best = (f64::NEG_INFINITY, None);
         let mut deepest = f64::NEG_INFINITY;
@@ -87,10 +100,7 @@ impl<'a> Blocked<'a> {
         if best.0 > 0.0 {
             return true;
         }
-        deepest > 0.0
-            && depth < DEEPEST
-            && self.between(from, &middle, witness, depth + 1)
-            && self.between(&middle, to, witness, depth + 1)
+        deepest > 0.0 && halves(witness)
     }
 
     fn axes(&self, q: &[f64; 2]) -> [Axis; 2] {

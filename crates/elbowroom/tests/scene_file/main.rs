@@ -64,8 +64,10 @@ fn lengths_and_angles_are_those_nearest_to_what_is_written() {
         let file = parse(&SOUND.replace("[25, 20]", &format!("[25, {number}]")), "s.yaml");
         assert_eq!(file.unwrap().scene.arm().lengths()[1], 0.2, "{number}");
     }
-    let radians =
-        SOUND.replace("deg", "rad").replace("velocity: 90", "velocity: 9, acceleration: 8, jerk: 7");
+    let radians = SOUND
+        .replace("deg", "rad")
+        .replace("150", "1.5")
+        .replace("velocity: 90", "velocity: 9, acceleration: 8, jerk: 7");
     let joint = parse(&radians, "s.yaml").unwrap().scene.arm().joints()[0];
     let motion = MotionLimits { velocity: Some(9.0), acceleration: Some(8.0), jerk: Some(7.0) };
     assert_eq!(joint.motion, motion);
@@ -151,6 +153,11 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
             "{min: -150, max: 150}",
             "{min: -1e9, max: 150}",
             "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand turns of 0",
+        ),
+        (
+            "{min: -150, max: 150}",
+            "{min: -8000, max: 150}",
+            "s.yaml:7:7: arm.joints[1]: -8000 to 150 deg is 22.6 turns, more than 20: is `units.angle` right? A joint without stops is `continuous: true`",
         ),
         (
             "velocity: 90",

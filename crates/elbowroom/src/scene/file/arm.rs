@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use super::error::ParseProblem;
 use super::keys::Keys;
 use super::units::Units;
@@ -86,6 +88,10 @@ fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> R
     JointLimits::range(min_angle, max_angle).map_err(|error| match error {
         JointLimitsError::Reversed { .. } => {
             joint.fault(ParseProblem::LimitsReversed { min: low, max: high })
+        }
+        JointLimitsError::TooWide { .. } => {
+            let turns = (max_angle - min_angle) / TAU;
+            joint.fault(ParseProblem::LimitsTooWide { min: low, max: high, unit: units.angle_name(), turns })
         }
         JointLimitsError::OutsideRange { .. } => {
             let far = if JointLimits::range(min_angle, min_angle).is_err() { min } else { max };

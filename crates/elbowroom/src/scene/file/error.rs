@@ -126,6 +126,20 @@ pub enum ParseProblem {
         /// What it has to be.
         allowed: &'static str,
     },
+    /// Stops more than 20 turns apart, in the file's unit.
+    #[error(
+        "{min} to {max} {unit} is {turns:.1} turns, more than 20: is `units.angle` right? A joint without stops is `continuous: true`"
+    )]
+    LimitsTooWide {
+        /// Lower stop.
+        min: f64,
+        /// Upper stop.
+        max: f64,
+        /// The file's unit of angles.
+        unit: &'static str,
+        /// How many turns that is.
+        turns: f64,
+    },
     /// The lower stop is above the upper one, in the file's unit.
     #[error("min {min} is above max {max}")]
     LimitsReversed {

@@ -15,4 +15,9 @@ impl Units {
     pub(super) fn angle(self, number: f64) -> f64 {
         if self.degrees { number.to_radians() } else { number }
     }
+
+    /// What the file calls its unit of angles.
+    pub(super) fn angle_name(self) -> &'static str {
+        if self.degrees { "deg" } else { "rad" }
+    }
 }
