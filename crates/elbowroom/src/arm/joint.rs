@@ -114,7 +114,7 @@ impl JointLimits {
     ///
     /// A continuous joint has one, in (-π, π]; one with stops has one for each turn that fits between
     /// them. An angle beyond a stop by no more than rounding is put on the stop.
-    pub fn places(&self, angle: f64) -> impl Iterator<Item = f64> + use<> {
+    pub fn places(&self, angle: f64) -> impl ExactSizeIterator<Item = f64> + use<> {
         let (min, max) = match *self {
             Self::Continuous => (-std::f64::consts::PI, std::f64::consts::PI),
             Self::Range { min, max } => (min, max),
@@ -123,7 +123,8 @@ impl JointLimits {
         let single = matches!(self, Self::Continuous);
         let first = if single { 0.0 } else { ((min - LIMIT_ROUNDING - direction) / TAU).ceil() };
         let last = if single { 0.0 } else { ((max + LIMIT_ROUNDING - direction) / TAU).floor() };
-        (first as i64..=last as i64).map(move |turn| (direction + TAU * turn as f64).clamp(min, max))
+        let count = (last - first + 1.0).max(0.0) as usize;
+        (0..count).map(move |turn| (direction + TAU * (first + turn as f64)).clamp(min, max))
     }
 }
 

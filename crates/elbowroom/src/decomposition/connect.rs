@@ -2,10 +2,13 @@ use std::f64::consts::TAU;
 
 use super::slabs::Slab;
 use crate::geometry::{Point, Vector};
-use crate::mesh::{Across, MeshError, MeshPoint, NavigationMesh, Side};
+use crate::mesh::{Across, MeshPoint, NavigationMesh, Side};
 
 /// Stretches shorter than this are left out, and places no farther outside a cell are in it: rounding.
 const SHORTEST: f64 = 1e-12;
+
+/// Cells between two questions whether to keep going.
+const CELLS_PER_LOOK: usize = 4096;
 
 /// An open trapezoid of a slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,14 +62,17 @@ struct Gate {
 }
 
 /// Cells of what is open in `stretches`, joined along the slabs' ends and, where the second joint goes `round`,
-/// along the ends of its `range`.
+/// along the ends of its `range`; `None` where `keep_going` said no, or they are more than can be numbered.
 pub(super) fn connect(
     stretches: Vec<Stretch>,
     range: [f64; 2],
     round: bool,
-) -> Result<ConnectedCells, MeshError> {
+    keep_going: &dyn Fn() -> bool,
+) -> Option<ConnectedCells> {
+    let stopped = |done: usize| done.is_multiple_of(CELLS_PER_LOOK) && !keep_going();
     let slabs: Vec<&Slab> = stretches.iter().flat_map(|stretch| &stretch.slabs).collect();
-    let openings: Vec<Vec<Opening>> = slabs.iter().map(|slab| openings(slab, range)).collect();
+    let open = |(i, slab): (usize, &&Slab)| if stopped(i) { None } else { Some(openings(slab, range)) };
+    let openings: Vec<Vec<Opening>> = slabs.iter().enumerate().map(open).collect::<Option<_>>()?;
     let mut first_cells = vec![0];
     for opening in &openings {
         first_cells.push(first_cells[first_cells.len() - 1] + opening.len());
@@ -90,6 +96,9 @@ pub(super) fn connect(
     let mut at_right: Vec<Vec<(f64, f64, usize, f64)>> = vec![Vec::new(); all.len()];
     for (slab, before) in before.iter().enumerate() {
         let Some((before, shift)) = *before else { continue };
+        if stopped(slab) {
+            return None;
+        }
         let (lefts, rights) = (&openings[before], &openings[slab]);
         let (mut i, mut j) = (0, 0);
         while i < lefts.len() && j < rights.len() {
@@ -111,6 +120,9 @@ pub(super) fn connect(
     let mut tops: Vec<Option<usize>> = Vec::with_capacity(all.len());
     let mut bottoms: Vec<Option<usize>> = Vec::with_capacity(all.len());
     for (cell, (slab, opening)) in all.iter().enumerate() {
+        if stopped(cell) {
+            return None;
+        }
         let mut chain = Chain { sides: Vec::new() };
         let [x0, x1] = slab.x;
         let [low, high] = range;
@@ -134,6 +146,9 @@ pub(super) fn connect(
     }
 
     for right in 0..all.len() {
+        if stopped(right) {
+            return None;
+        }
         let (rights, count) = (at_right[right].len(), at_left[right].len());
         for (k, gate) in at_left[right].iter().enumerate() {
             let at = at_right[gate.left]
@@ -159,10 +174,10 @@ pub(super) fn connect(
             cells[end - 1][top].across = to(first, bottom, -TAU);
         }
     }
-    let mesh = NavigationMesh::new(&cells)?;
+    let mesh = NavigationMesh::new_until(&cells, keep_going).ok()?;
     first_cells.pop();
     let slabs = stretches.into_iter().flat_map(|stretch| stretch.slabs).collect();
-    Ok(ConnectedCells { mesh, slabs, openings, first_cells })
+    Some(ConnectedCells { mesh, slabs, openings, first_cells })
 }
 
 /// What the barriers of a slab leave open.
@@ -322,7 +337,8 @@ mod tests {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let slabs = random_slabs(&mut rng);
             let width = slabs[slabs.len() - 1].x[1];
-            let connected = connect(vec![Stretch { slabs, round: false }], [0.0, 4.0], false).unwrap();
+            let connected =
+                connect(vec![Stretch { slabs, round: false }], [0.0, 4.0], false, &|| true).unwrap();
             let mut place = || loop {
                 let point = Point::new(width * unit(&mut rng), 4.0 * unit(&mut rng));
                 if let Some(cell) = (0..connected.mesh.len()).find(|&cell| connected.mesh.holds(cell, point))

@@ -73,7 +73,7 @@ impl JointSpaceCells {
         for (ends, round) in open_stretches(scene, &slices, approximation) {
             stretches.push(Stretch { slabs: cutter.slabs(ends[0], ends[1])?, round });
         }
-        Some(Self { connected: connect(stretches, range, rounds[1]).ok()?, rounds })
+        Some(Self { connected: connect(stretches, range, rounds[1], keep_going)?, rounds })
     }
 
     /// Where `q` is on the mesh, if it is in the open.

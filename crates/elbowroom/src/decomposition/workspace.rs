@@ -35,7 +35,7 @@ pub(crate) fn workspace_cells(
     let approximation = Approximation { distance: approximation.distance * reach, ..approximation };
     let cutter = Cutter { forbidden: &forbidden, approximation, range, widest: WIDEST * reach, keep_going };
     let slabs = cutter.slabs(base.x - reach, base.x + reach)?;
-    connect(vec![Stretch { slabs, round: false }], range, false).ok()
+    connect(vec![Stretch { slabs, round: false }], range, false, keep_going)
 }
 
 /// Where the line at `x` runs through a disc.

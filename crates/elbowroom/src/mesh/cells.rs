@@ -31,6 +31,9 @@ pub struct Side {
     pub across: Option<Across>,
 }
 
+/// Cells between two questions whether to keep going.
+const CELLS_PER_LOOK: usize = 4096;
+
 /// Why cells make no mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum MeshError {
@@ -48,6 +51,9 @@ pub enum MeshError {
         /// Which of its sides.
         side: usize,
     },
+    /// `keep_going` said no.
+    #[error("stopped before the cells were joined")]
+    Stopped,
     /// More sides than can be numbered.
     #[error("{sides} sides are more than can be numbered")]
     TooMany {
@@ -78,6 +84,14 @@ impl NavigationMesh {
     /// # Errors
     /// [`MeshError`]
     pub fn new(cells: &[Vec<Side>]) -> Result<Self, MeshError> {
+        Self::new_until(cells, &|| true)
+    }
+
+    /// [`NavigationMesh::new`], given up when `keep_going`, asked every few thousand cells, says no.
+    ///
+    /// # Errors
+    /// [`MeshError`]
+    pub(crate) fn new_until(cells: &[Vec<Side>], keep_going: &dyn Fn() -> bool) -> Result<Self, MeshError> {
         let total: usize = cells.iter().map(Vec::len).sum();
         if total >= NONE as usize {
             return Err(MeshError::TooMany { sides: total });
@@ -93,10 +107,13 @@ impl NavigationMesh {
         let mut mesh =
             Self { sides, begins, vertices: Vec::new(), bends: Vec::new(), rounding: ROUNDING * greatest };
         for cell in 0..cells.len() {
+            if cell.is_multiple_of(CELLS_PER_LOOK) && !keep_going() {
+                return Err(MeshError::Stopped);
+            }
             mesh.check_shape(cell)?;
             mesh.check_seams(cell)?;
         }
-        mesh.find_vertices();
+        mesh.find_vertices(keep_going)?;
         Ok(mesh)
     }
 
@@ -184,10 +201,15 @@ impl NavigationMesh {
 
     /// Which sides begin at one vertex, and where a path can bend: where the walls leave more than half a turn, or
     /// cells without walls more than a whole one.
-    fn find_vertices(&mut self) {
+    fn find_vertices(&mut self, keep_going: &dyn Fn() -> bool) -> Result<(), MeshError> {
+        let look = |cell: usize| {
+            let stopped = cell.is_multiple_of(CELLS_PER_LOOK) && !keep_going();
+            if stopped { Err(MeshError::Stopped) } else { Ok(()) }
+        };
         let mut joined = Joined::new(self.sides.len());
         let mut at_wall = vec![false; self.sides.len()];
         for cell in 0..self.len() {
+            look(cell)?;
             let begin = self.begins[cell] as usize;
             for side in begin..self.begins[cell + 1] as usize {
                 let next = self.next(cell, side);
@@ -206,6 +228,7 @@ impl NavigationMesh {
         let mut walls = vec![false; self.sides.len()];
         self.vertices = (0..self.sides.len()).map(|side| joined.first(side) as u32).collect();
         for cell in 0..self.len() {
+            look(cell)?;
             let sides = self.sides(cell);
             let n = sides.len();
             for (i, side) in (self.begins[cell] as usize..).take(n).enumerate() {
@@ -225,6 +248,7 @@ impl NavigationMesh {
             angles[vertex] > straight
         };
         self.bends = (0..self.sides.len()).map(bends).collect();
+        Ok(())
     }
 }
 

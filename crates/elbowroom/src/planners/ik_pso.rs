@@ -94,18 +94,19 @@ impl Planner for IkPsoPlanner {
         ];
         // What is learnt from one root stays with it, as far as memory goes.
         let most = (MOST_CELLS / scene.grid().len()).max(2);
-        let mut guides = ways.map(|(roots, _, guide)| vec![guide.clone(); roots.len().min(most)]);
+        let mut guides = ways.map(|(roots, ..)| vec![None; roots.len().min(most)]);
         let local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
         let mut runs = 0_usize..;
         gather(problem, local, [usize::MAX, MOST_MOTIONS], |local| {
             let run = runs.next().unwrap_or_default();
-            let (roots, target, _) = ways[run % 2];
+            let (roots, target, untaught) = ways[run % 2];
             let round = run / 2;
             let root = &roots[round % roots.len()];
             local.kept = (ends.keep_posture)
                 .then(|| Posture::at(root).unwrap_or(Posture::ALL[(round / roots.len()) % 2]));
             let kept = guides[run % 2].len();
-            let guide = &mut guides[run % 2][round % roots.len() % kept];
+            let guide: &mut Option<NavigationFunction> = &mut guides[run % 2][round % roots.len() % kept];
+            let guide = guide.get_or_insert_with(|| untaught.clone());
             let follower = Follower { guide, target, most: self.evaluations / SHARE };
             // Every run counts, so that the budget ends them.
             local.budget.spend(1)?;

@@ -2,9 +2,6 @@
 
 use super::{Effort, Monitor, PlanError};
 
-/// Evaluations between two looks at the monitor: a few milliseconds.
-const EVALUATIONS_PER_LOOK: usize = 200;
-
 /// Why a search ends before it has found.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Exhausted {
@@ -20,20 +17,19 @@ impl From<PlanError> for Exhausted {
     }
 }
 
-/// Counts evaluations, and asks the monitor every few of them.
+/// Counts evaluations, and asks the monitor before each.
 pub struct Budget<'a> {
     /// Who is asked whether to go on.
     pub monitor: &'a dyn Monitor,
     limit: usize,
     made: usize,
-    looked_at: usize,
     convergence: Vec<(usize, f64)>,
 }
 
 impl<'a> Budget<'a> {
     /// Of `limit` evaluations.
     pub fn new(limit: usize, monitor: &'a dyn Monitor) -> Self {
-        Self { monitor, limit, made: 0, looked_at: 0, convergence: Vec::new() }
+        Self { monitor, limit, made: 0, convergence: Vec::new() }
     }
 
     /// How many evaluations were made.
@@ -54,10 +50,7 @@ impl<'a> Budget<'a> {
         if evaluations > self.left() {
             return Err(Exhausted::Spent);
         }
-        if self.made + evaluations >= self.looked_at + EVALUATIONS_PER_LOOK {
-            self.looked_at = self.made + evaluations;
-            self.look()?;
-        }
+        self.look()?;
         self.made += evaluations;
         Ok(())
     }
@@ -65,7 +58,6 @@ impl<'a> Budget<'a> {
     /// Gives back what was entered and not made.
     pub fn give_back(&mut self, evaluations: usize) {
         self.made = self.made.saturating_sub(evaluations);
-        self.looked_at = self.looked_at.min(self.made);
     }
 
     /// Asks the monitor.

@@ -236,8 +236,9 @@ impl<'a> BranchGrid<'a> {
         let (branch, cell) = self.branch_and_cell(node);
         let q = self.scene.arm().inverse_unlimited(self.scene.grid().point(cell), self.posture(node)).ok()?;
         let [first, second] = self.scene.arm().joints().map(|joint| joint.limits);
-        let mut turned = first.places(q[0]).flat_map(|q1| second.places(q[1]).map(move |q2| [q1, q2]));
-        turned.nth(branch % self.per_posture)
+        let (mut firsts, mut seconds) = (first.places(q[0]), second.places(q[1]));
+        let (turn, each) = (branch % self.per_posture, seconds.len().max(1));
+        Some([firsts.nth(turn / each)?, seconds.nth(turn % each)?])
     }
 
     fn work_out(&self, node: usize, q: [f64; 2]) -> CachedNode {

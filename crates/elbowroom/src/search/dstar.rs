@@ -7,7 +7,7 @@ use super::ring::Ring;
 use super::{GoalError, Graph};
 
 /// Expansions between two questions whether to go on: a few milliseconds on the slowest of graphs.
-const EXPANSIONS_PER_LOOK: usize = 1_000;
+const EXPANSIONS_PER_LOOK: usize = 100;
 
 /// D*: the cost-to-go of the nodes of a graph, and the way there, repaired where costs change.
 ///
