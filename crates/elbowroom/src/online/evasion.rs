@@ -9,7 +9,7 @@ use super::settings::{
 };
 use crate::arm::JointLimits;
 use crate::random::unit;
-use crate::trajectory::{Motion, departing, fastest_durations, quintic_through, vias_at};
+use crate::trajectory::{Motion, State, departing, fastest_durations, quintic_through, vias_at};
 
 /// Motions to rest, and until when the arm may stay there (s).
 struct Ways {
@@ -46,6 +46,14 @@ impl Search<'_> {
         }
         let motion = self.evade(rng);
         (self.safe_until(&motion) > until + WORTH_LEAVING).then(|| self.safe(motion)).flatten()
+    }
+
+    /// Whether the arm, standing at the end of a safe motion until something comes there at `until` (s), would be caught: whether nothing
+    /// leads away for good any more, as far as is looked ahead, when it has to leave.
+    pub(super) fn is_caught(&self, motion: &Motion, until: f64, rng: &ChaCha8Rng) -> bool {
+        let state = State::rest(&motion.at(motion.end()).position);
+        let later = Search { now: (until - HOLD).max(motion.end()), state: &state, ..*self };
+        later.safe_until(&later.evade(&mut rng.clone())).is_finite()
     }
 
     /// A motion to rest somewhere, on the spot or at places around, with rests in between if it must be: one that is safe

@@ -12,6 +12,7 @@ mod search;
 mod settings;
 mod sipp;
 mod to_goal;
+mod traps;
 mod update;
 mod world;
 

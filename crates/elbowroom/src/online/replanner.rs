@@ -7,6 +7,7 @@ use super::placed::{AWAY, still};
 use super::routes::Routes;
 use super::search::{Certified, Search, standing};
 use super::settings::{ASTRAY, HOLD, LOOK_EVERY};
+use super::traps::Traps;
 use super::update::{Decision, Update};
 use crate::arm::joint_distance;
 use crate::free_space::{NotFree, configurations};
@@ -44,6 +45,7 @@ pub struct Replanner {
     motion: Motion,
     reaches_goal: bool,
     updates: u64,
+    traps: Traps,
     rng: ChaCha8Rng,
 }
 
@@ -74,6 +76,7 @@ impl Replanner {
             motion: standing(&start, 0.0, HOLD),
             reaches_goal: false,
             updates: 0,
+            traps: Traps::default(),
             rng: ChaCha8Rng::seed_from_u64(seed),
         };
         replanner.reaches_goal = replanner.is_at_goal(&State::rest(&start));
@@ -128,6 +131,9 @@ impl Replanner {
         }
         let arrival = if arrives { self.motion.end() } else { f64::INFINITY };
         let refused = match search.to_goal(&mut self.routes, arrival) {
+            Ok(found) if self.traps.has(&search, found.trajectory.motion(), self.updates, &self.rng) => {
+                Vec::new()
+            }
             Ok(found) => return Ok(self.run(found, true)),
             Err(refused) => refused,
         };
@@ -135,7 +141,8 @@ impl Replanner {
             return Ok(self.run(part, false));
         }
         if let Some((verdict, rest)) = safe {
-            let looks = may_look && !self.reaches_goal;
+            let leaves = |traps: &mut Traps| traps.has(&search, &rest, self.updates, &self.rng);
+            let looks = may_look && (!self.reaches_goal || leaves(&mut self.traps));
             let safer = if looks { search.safer(&rest, &mut self.rng) } else { None };
             return Ok(match safer {
                 Some(safer) => self.run(safer, false),

@@ -16,6 +16,10 @@ pub(super) const STANDS: f64 = 1e-9;
 /// Updates between two looks for a motion that is better than the safe one that runs.
 pub(super) const LOOK_EVERY: u64 = 10;
 
+/// Looks for which it stands that the arm would be caught at a goal, or would not, while the same is known to come there: the search for
+/// a way out is the longest there is.
+pub(super) const LOOKS_PER_TRAP: u64 = 10;
+
 /// How long the arm may wait before it goes to the goal (s), tried one after the other.
 pub(super) const WAITS: [f64; 10] = [0.0, 0.2, 0.4, 0.7, 1.0, 1.5, 2.0, 3.0, 4.5, 6.5];
 
