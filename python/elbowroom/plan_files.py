@@ -14,7 +14,7 @@ from elbowroom.trajectory_files import RATES, columns_of
 
 def columns(joints: int) -> list[str]:
     """Return the columns of ``trajectory.csv`` for an arm of so many joints."""
-    rates = [name for letter, unit, _ in RATES for name in columns_of(joints, letter, unit)]
+    rates = [name for letter, unit in RATES for name in columns_of(joints, letter, unit)]
     return ["time_s", *columns_of(joints), *rates, "x_m", "y_m"]
 
 
