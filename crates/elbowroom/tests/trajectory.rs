@@ -287,7 +287,7 @@ fn samples_become_the_curve_a_controller_would_run() {
     bare.velocities.as_mut().unwrap()[0] = vec![];
     let mixed = interpolate(&bare).unwrap();
     assert_eq!((mixed.least, mixed.ends), (Curve::Linear, [Curve::Linear, Curve::Quintic]));
-    assert!(near(&mixed.motion.pieces()[0].at(0.25).position, &[0.5, 0.5], 1e-12));
+    assert!(near(&mixed.motion.pieces()[0].at(0.25).position, [0.5, 0.5], 1e-12));
     bare.accelerations.as_mut().unwrap()[2] = vec![];
     assert_eq!(interpolate(&bare).unwrap().ends, [Curve::Linear, Curve::Cubic]);
     // The last row moves, and no curve takes that: nobody knows what is meant.

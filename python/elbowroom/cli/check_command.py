@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from elbowroom.cli.failure import UNSAFE, reported
+from elbowroom.cli.options import number_option, whole_option
 
 if TYPE_CHECKING:
     from elbowroom.check import JudgedMessage
@@ -32,10 +33,10 @@ def check_command(
         typer.Option("--open-end", help="A part of a longer motion: it may begin and end while joints move."),
     ] = False,
     message: Annotated[
-        int | None, typer.Option(help="Judge this message alone, from 1; left out, all those of the file.")
+        int | None, whole_option(help="Judge this message alone, from 1; left out, all those of the file.")
     ] = None,
-    margin: Annotated[float, typer.Option(help="Clearance to keep (m).")] = 0.0,
-    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
+    margin: Annotated[float, number_option(help="Clearance to keep (m).")] = 0.0,
+    timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Judge anybody's trajectory, from rest to rest: exit code 0 only if all of it is proved to be safe, else 4."""

@@ -62,6 +62,7 @@ def _against(nearest: Clearance) -> str:
 
 def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> list[str]:
     """Return ``verdict`` on a motion in ``scene`` for people; ``open_end`` if it might begin and end moving."""
+    judged, left_out = _judged(verdict, scene)
     violations = list(verdict.violations)
     # What nobody has looked at comes before all else.
     unknown = violations.pop(0) if violations and violations[0].kind == "not_judged" else None
@@ -72,7 +73,7 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
     elif open_end:
         lines = ["SAFE: proved from the first row to the last; what comes before and after was not judged"]
     else:
-        lines = ["SAFE: proved for the whole motion"]
+        lines = ["SAFE: proved for the whole motion" + ", in all that was judged" * bool(left_out)]
     lines += [f"  {violation.message}" for violation in violations]
     nearest = verdict.least_clearance
     if nearest is not None:
@@ -87,16 +88,16 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
     changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
-    return lines + judged_lines(verdict, scene)
+    return [*lines, f"  judged: {', '.join(judged)}", *(f"  NOT judged, {what}" for what in left_out)]
 
 
-def judged_lines(verdict: Verdict, scene: Scene) -> list[str]:
-    """Return what ``verdict`` is about, and what of a motion the scene does not ask to be judged."""
+def _judged(verdict: Verdict, scene: Scene) -> tuple[list[str], list[str]]:
+    """What ``verdict`` is about, and what of a motion the scene does not ask to be judged."""
     # Neighbours may touch: with two links there is nothing to ask.
     alone = len(scene.arm.links) < 3
     judged = ["contact with obstacles", "joint limits"]
     judged += [] if alone or not scene.arm.self_collision else ["contact between links"]
-    left_out = []
+    without_limits = []
     for rate, unit in UNIT_OF_RATE.items():
         margins = [getattr(of_joint, rate) for of_joint in verdict.motion_margins]
         without = [joint for joint, margin in enumerate(margins, 1) if margin.limit is None]
@@ -105,13 +106,13 @@ def judged_lines(verdict: Verdict, scene: Scene) -> list[str]:
         if without:
             greatest = max(margins[joint - 1].largest for joint in without)
             reached = f" (up to {math.degrees(greatest):.4g} {unit})" if greatest > 0.0 else ""
-            left_out.append(rate + _of(without, len(margins), of_those=True) + reached)
-    lines = [f"  judged: {', '.join(judged)}"]
-    if left_out:
-        lines.append(f"  NOT judged, as the scene states no limits: {', '.join(left_out)}")
+            without_limits.append(rate + _of(without, len(margins), of_those=True) + reached)
+    left_out = []
+    if without_limits:
+        left_out.append(f"as the scene states no limits: {', '.join(without_limits)}")
     if not alone and not scene.arm.self_collision:
-        lines.append("  NOT judged, as the scene does not ask for it (arm.self_collision): contact between links")
-    return lines
+        left_out.append("as the scene does not ask for it (arm.self_collision): contact between links")
+    return judged, left_out
 
 
 def _of(without: Sequence[int], joints: int, *, of_those: bool) -> str:
