@@ -41,9 +41,12 @@ def read_messages(path: Path) -> list[Message]:
         TrajectoryError: The file cannot be read; the message leaves out its name.
     """
     try:
-        if path.stat().st_size > LARGEST_FILE:
+        # Not by its size: what is no file in a folder, such as a pipe, has none.
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+        if len(content) > LARGEST_FILE:
             raise TrajectoryError("more than 256 MiB, which is the most a trajectory file may have")
-        text = path.read_text(encoding="utf-8-sig")
+        text = content.decode("utf-8-sig")
     except OSError as error:
         raise TrajectoryError(f"cannot be read: {error.strerror or error}") from None
     except UnicodeDecodeError as error:

@@ -7,7 +7,7 @@ use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
-use crate::planning::{LONGEST_DURATION, Monitor, Stage, is_duration, standing_still};
+use crate::planning::{LONGEST_DURATION, Monitor, SHORTEST_DURATION, Stage, is_duration, standing_still};
 use crate::roadmap::UnionGraph;
 use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
 use crate::search::{Dstar, GoalError, Graph, Until};
@@ -86,7 +86,7 @@ pub enum PaperError {
     #[error(transparent)]
     Swarm(#[from] GuidedSwarmError),
     /// The motion shall take no time, a time that is no number, or one beyond all measure.
-    #[error("duration is {duration:?} s, it must be greater than 0 and at most {LONGEST_DURATION} s")]
+    #[error("duration is {duration:?} s, it must be from {SHORTEST_DURATION} to {LONGEST_DURATION} s")]
     Duration {
         /// What was asked (s).
         duration: f64,

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{LONGEST_DURATION, Mismatch, NoPath};
+use super::{LONGEST_DURATION, Mismatch, NoPath, SHORTEST_DURATION};
 use crate::arm::Posture;
 use crate::free_space::NotFree;
 use crate::geometry::Point;
@@ -46,7 +46,7 @@ pub enum PlanError {
         reason: String,
     },
     /// The motion shall take no time, a time that is no number, or one beyond all measure.
-    #[error("duration is {duration:?} s, it must be greater than 0 and at most {LONGEST_DURATION} s")]
+    #[error("duration is {duration:?} s, it must be from {SHORTEST_DURATION} to {LONGEST_DURATION} s")]
     Duration {
         /// What was asked (s).
         duration: f64,
