@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import resource
 import signal
 import subprocess
 import sys
@@ -168,10 +167,13 @@ def test_what_is_no_number_is_none_in_a_scene(scenes: Path, scalar: str) -> None
 
 
 def limit_files() -> None:
+    import resource
+
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a system without /dev/full")
 def test_a_full_disk_leaves_no_half_of_a_file(scenes: Path, tmp_path: Path) -> None:
     old = tmp_path / "trajectory.csv"
     old.write_text("as it was\n")
@@ -225,6 +227,15 @@ main()
 """
     stopped = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
     assert (stopped.returncode, stopped.stderr) == (130, "error: interrupted\n")
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="a system without /dev/zero")
+def test_what_never_ends_is_read_no_further_than_a_file_may_be_long(
+    standin: er.Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("elbowroom.trajectory_files.LARGEST_FILE", 10_000)
+    with pytest.raises(er.TrajectoryError, match="/dev/zero: more than 256 MiB"):
+        er.check_file(standin, "/dev/zero")
 
 
 def test_arrays_of_many_kinds_end_in_errors_of_ours(standin: er.Scene) -> None:

@@ -25,10 +25,12 @@ import elbowroom as er
 
 scene = er.Scene.example("paper-standin")
 fine = scene.replace(grid=scene.grid.replace(step=0.0025))
+er.Replanner(er.Scene.example("late"))
 plans = [er.plan(fine, task="first"), er.plan(scene, task="second", planner="optimal")]
 
 
 def child(generations):
+    er.Replanner(er.Scene.example("late"))
     again = [er.plan(fine, task="first", timeout=60), er.plan(scene, task="second", planner="optimal", timeout=60)]
     assert again == plans
     if generations > 1:

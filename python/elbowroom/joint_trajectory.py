@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
@@ -99,14 +99,14 @@ def _order(names: Any, joints: int, asked: Sequence[str] | None) -> tuple[list[i
     raise TrajectoryError(f"joint names are {found}: which is at the base? Name them, base first: {example}")
 
 
-def _time(point: Any, row: int) -> Fraction:
+def _time(point: Any, row: int) -> Decimal:
     if not isinstance(point, Mapping):
         raise TrajectoryError(f"point {row} is not a mapping")
     time = point.get("time_from_start")
     try:
         if isinstance(time, Mapping):
             seconds = time.get("sec", time.get("secs"))
-            return exact(seconds) + exact(time.get("nanosec", time.get("nsecs", 0))) / 10**9
+            return exact(seconds) + exact(time.get("nanosec", time.get("nsecs", 0))).scaleb(-9)
         return exact(time)
     except ValueError:
         raise TrajectoryError(f"point {row} has no time_from_start with sec and nanosec") from None

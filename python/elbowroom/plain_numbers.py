@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import re
-from fractions import Fraction
+from decimal import Decimal
 
 DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
 NOT_FINITE = re.compile(r"[+-]?\.?(?:nan|inf|infinity)", re.ASCII | re.IGNORECASE)
@@ -48,7 +48,7 @@ def whole(text: str) -> int:
     raise ValueError("not a whole number")
 
 
-def exact(value: object) -> Fraction:
+def exact(value: object) -> Decimal:
     """Return ``value``, a number or the text of one, without rounding it.
 
     Raises:
@@ -59,7 +59,7 @@ def exact(value: object) -> Fraction:
         raise ValueError("not finite")
     # What is 0 as a float may have an exponent that would fill the memory.
     if nearest == 0.0:
-        return Fraction(0)
+        return Decimal(0)
     if isinstance(value, int):
-        return Fraction(value)
-    return Fraction(value.strip(" \t\r\n") if isinstance(value, str) else nearest)
+        return Decimal(value)
+    return Decimal(value.strip(" \t\r\n") if isinstance(value, str) else nearest)

@@ -44,16 +44,17 @@ def read_messages(path: Path) -> list[Message]:
         # Not by its size: what is no file in a folder, such as a pipe, has none.
         with path.open("rb") as file:
             content = file.read(LARGEST_FILE + 1)
-        if len(content) > LARGEST_FILE:
-            raise TrajectoryError("more than 256 MiB, which is the most a trajectory file may have")
-        text = content.decode("utf-8-sig")
     except OSError as error:
         raise TrajectoryError(f"cannot be read: {error.strerror or error}") from None
-    except UnicodeDecodeError as error:
-        raise TrajectoryError(f"byte {error.start} is not UTF-8") from None
     # A path that has a NUL in it.
     except ValueError as error:
         raise TrajectoryError(f"cannot be read: {error}") from None
+    if len(content) > LARGEST_FILE:
+        raise TrajectoryError("more than 256 MiB, which is the most a trajectory file may have")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise TrajectoryError(f"byte {error.start} is not UTF-8") from None
     if not text.strip():
         raise TrajectoryError("the file is empty")
     if path.suffix.lower() in (".json", ".yaml", ".yml"):

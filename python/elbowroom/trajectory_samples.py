@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
+from decimal import Decimal, localcontext
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
+
+DIGITS = 60
+"""Digits that differences of times are worked out with: of a clock since 1970 those of attoseconds, twice over."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -38,7 +41,7 @@ class TrajectorySamples:
     notes: tuple[str, ...] = ()
 
 
-def since_first(times: Sequence[Fraction]) -> tuple[Floats, float]:
+def since_first(times: Sequence[Decimal]) -> tuple[Floats, float]:
     """Return ``times`` counted from the first, rounded only then, and the first.
 
     Clocks count from 1970, and there a float knows no tenth of a microsecond.
@@ -46,4 +49,5 @@ def since_first(times: Sequence[Fraction]) -> tuple[Floats, float]:
     if not times:
         return np.empty(0), 0.0
     first = times[0]
-    return np.array([float(time - first) for time in times]), float(first)
+    with localcontext(prec=DIGITS):
+        return np.array([float(time - first) for time in times]), float(first)
