@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -192,7 +193,12 @@ def test_a_full_disk_leaves_no_half_of_a_file(scenes: Path, tmp_path: Path) -> N
 
 def test_files_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
     path = tmp_path / "a.txt"
+    path.write_text("old")
+    os.link(path, tmp_path / "as it was")
     assert write_whole(path, "first\r\n").read_bytes() == b"first\r\n"
+    # Nothing was written over the old file, which a reader may still be in.
+    assert (tmp_path / "as it was").read_text() == "old"
+    (tmp_path / "as it was").unlink()
 
     def half() -> None:
         with written_whole(path) as fresh:
