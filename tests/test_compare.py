@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom._core import ASSUMED_LIMITS, mismatch
+from elbowroom._core import ASSUMED_LIMITS, interpolated, mismatch
 from elbowroom.compare import Row, Table, compare, straight_turns
 from elbowroom.compare.local import run_locally
 from elbowroom.compare.measure import Lengths, lengths
@@ -55,8 +55,8 @@ def test_lengths_are_those_of_the_core(standin: er.Scene, planner: Any) -> None:
 
 
 def test_lengths_in_closed_form(standin: er.Scene) -> None:
-    still = er.check(standin, t=[0.0], q=[[0.1, 0.2]])
-    assert lengths(standin, still.motion) == Lengths(0.0, 0.0, 0.0)
+    still, _, _ = interpolated(np.zeros(1), np.array([[0.1, 0.2]]))
+    assert lengths(standin, still) == Lengths(0.0, 0.0, 0.0)
     # Joint 2 alone swings the tip on a circle of radius 0.25; joint 1 the stretched arm on one of 0.5.
     swings = er.check(standin, t=[0.0, 2.0, 3.0], q=[[0.0, 1.0], [0.0, 0.0], [0.5, 0.0]])
     found = lengths(standin, swings.motion)

@@ -176,17 +176,17 @@ def test_links_that_touch_each_other_are_named(chain: Chain) -> None:
     # The last of three links folds back over the first.
     for self_collision in (True, False):
         scene = chain(3, self_collision=self_collision).replace(obstacles=(), tasks={})
-        judged = er.check(scene, t=[0.0, 5.0], q=[[0.0, 2.0, 0.0], [0.0, 2.0, 2.4]])
+        judged = er.check(scene, t=[0.0, 5.0], q=[[0.0, 2.0, 0.0], [0.0, 2.0, 2.4]], v=np.zeros((2, 3)))
         assert judged.safe != self_collision
     scene = chain(3).replace(obstacles=(), tasks={})
-    judged = er.check(scene, t=[0.0, 5.0], q=[[0.0, 2.0, 0.0], [0.0, 2.0, 2.4]])
+    judged = er.check(scene, t=[0.0, 5.0], q=[[0.0, 2.0, 0.0], [0.0, 2.0, 2.4]], v=np.zeros((2, 3)))
     [contact] = judged.verdict.violations
     assert (contact.kind, {contact.link, contact.other_link}) == ("contact", {1, 3})
     assert contact.obstacle is None
     nearest = judged.verdict.least_clearance
     assert nearest is not None
     assert nearest.obstacle is None
-    said = "\n".join(verdict_lines(judged.verdict))
+    said = "\n".join(verdict_lines(judged.verdict, scene))
     assert "NOT SAFE" in said
     assert "link 1" in said
     assert "link 3" in said
@@ -201,7 +201,7 @@ def test_words_for_many_joints_are_few(chain: Chain, planned: Planned) -> None:
     said = in_words(planned(chain(10)))
     assert said.count("of a stop") == 1
     assert "the 8 others keep farther off" in said
-    assert "so taken as acceleration 180 deg/s² (joint 1), jerk 720 deg/s³ (joints 1 to 10)" in said
+    assert "in place of limits: acceleration 180 deg/s² (joint 1), jerk 720 deg/s³ (joints 1 to 10)" in said
     assert in_words(planned(chain(3))).count("of a stop") == 2
 
 

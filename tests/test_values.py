@@ -97,11 +97,11 @@ def test_no_claim_is_taken_from_a_pickle(standin: er.Scene, plan: er.Plan) -> No
     with pytest.raises(er.BadSetting):
         restore(scene, motion, {**kept, "configurations": [[0.0]]})
 
-    restore, (_, motion, curve, margin, safe) = plan.verdict.__reduce__()
+    restore, (_, motion, terms, safe) = plan.verdict.__reduce__()
     assert safe
     with pytest.raises(er.Refuted, match="touches"):
-        restore(blocked, motion, curve, margin, safe)
-    assert not restore(blocked, motion, curve, margin, False).safe
+        restore(blocked, motion, terms, safe)
+    assert not restore(blocked, motion, terms, False).safe
     for kind in (er.Plan, er.Check, er.Verdict, er.Violation, er.Clearance, er.PaperPlan):
         with pytest.raises(TypeError):
             kind()

@@ -27,7 +27,7 @@ from elbowroom._core import (
     Verdict,
     Violation,
 )
-from elbowroom.check import check, check_file
+from elbowroom.check import JudgedMessage, check, check_file, check_messages
 from elbowroom.errors import (
     BadSetting,
     ElbowroomError,
@@ -65,6 +65,7 @@ __all__ = [
     "InternalError",
     "Joint",
     "JointMargin",
+    "JudgedMessage",
     "Known",
     "Motion",
     "MotionMargin",
@@ -95,6 +96,7 @@ __all__ = [
     "__version__",
     "check",
     "check_file",
+    "check_messages",
     "free_space",
     "plan",
     "plan_as_in_paper",

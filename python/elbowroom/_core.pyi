@@ -13,6 +13,7 @@ from elbowroom.scene import Outline, Pair, Place, PostureWish
 
 __all__ = [
     "ASSUMED_LIMITS",
+    "MAX_ROWS",
     "TICK",
     "Arm",
     "Check",
@@ -59,6 +60,7 @@ __all__ = [
 ]
 
 ASSUMED_LIMITS: Mapping[str, float]
+MAX_ROWS: int
 TICK: float
 __version__: str
 
@@ -682,14 +684,22 @@ def interpolated(
     positions: NDArray[np.float64],
     velocities: NDArray[np.float64] | None = None,
     accelerations: NDArray[np.float64] | None = None,
-) -> tuple[Motion, str]: ...
+    stated: NDArray[np.int64] | None = None,
+) -> tuple[Motion, str, tuple[str, str]]: ...
 def verify(
     scene: Scene,
     motion: Motion,
     *,
     curve: str,
     margin: float,
+    at_rest: tuple[str, str] | None = None,
+    lead: float = 0.0,
     timeout: float | None = None,
 ) -> Check: ...
-def verdict_again(scene: Scene, motion: Motion, curve: str, margin: float, safe: bool) -> Verdict: ...
+def verdict_again(
+    scene: Scene,
+    motion: Motion,
+    terms: tuple[str, float, tuple[str, str] | None, float],
+    safe: bool,
+) -> Verdict: ...
 def check_again(verdict: Verdict) -> Check: ...

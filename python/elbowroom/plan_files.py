@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
-from elbowroom._core import TICK, PaperPlan, Plan, __version__
+from elbowroom._core import MAX_ROWS, TICK, PaperPlan, Plan, __version__
+from elbowroom.errors import BadSetting
 from elbowroom.plan import AnyPlan
 from elbowroom.samples import Samples
 from elbowroom.trajectory_files import RATES, columns_of
+from elbowroom.whole_files import write_whole
 
 
 def columns(joints: int) -> list[str]:
     """Return the columns of ``trajectory.csv`` for an arm of so many joints."""
-    rates = [name for letter, unit, _ in RATES for name in columns_of(joints, letter, unit)]
+    rates = [name for letter, unit in RATES for name in columns_of(joints, letter, unit)]
     return ["time_s", *columns_of(joints), *rates, "x_m", "y_m"]
 
 
@@ -59,14 +62,34 @@ def as_json(plan: AnyPlan) -> dict[str, Any]:
     }
 
 
+def check_length(duration: float) -> None:
+    """Refuse a motion of ``duration`` (s) whose ``trajectory.csv`` would be too long to be read again.
+
+    Raises:
+        BadSetting: It is.
+    """
+    # So long that rows cannot be counted is for others to refuse.
+    if duration / TICK > MAX_ROWS - 1 and math.isfinite(duration):
+        longest = (MAX_ROWS - 1) * TICK
+        message = (
+            f"a motion of {duration:g} s does not fit into trajectory.csv, whose rows are {TICK} s apart: at most "
+        )
+        raise BadSetting(f"{message}{longest:g} s do", setting="out")
+
+
 def write_plan(plan: AnyPlan, folder: Path) -> list[Path]:
-    """Write ``plan.json`` and ``trajectory.csv`` into ``folder``, which is made if need be; return their paths."""
+    """Write ``plan.json`` and ``trajectory.csv`` into ``folder``, which is made if need be; return their paths.
+
+    Raises:
+        BadSetting: The motion is too long for a table of it.
+        OSError: The folder cannot be written to; no file is left half written.
+    """
+    check_length(plan.motion.duration)
     folder.mkdir(parents=True, exist_ok=True)
-    document = folder / "plan.json"
-    document.write_text(json.dumps(as_json(plan), indent=1, allow_nan=False) + "\n", encoding="utf-8")
-    table = folder / "trajectory.csv"
-    table.write_text(as_csv(plan), encoding="utf-8", newline="")
-    return [document, table]
+    return [
+        write_whole(folder / "plan.json", json.dumps(as_json(plan), indent=1, allow_nan=False) + "\n"),
+        write_whole(folder / "trajectory.csv", as_csv(plan)),
+    ]
 
 
 def as_csv(plan: AnyPlan) -> str:

@@ -6,13 +6,11 @@ from collections.abc import Callable, Mapping
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
 from elbowroom import _core, plugins
 from elbowroom._core import Plan
 from elbowroom.errors import BadSetting, ElbowroomError, PlannerFault, TrajectoryError
 from elbowroom.objectives import Objective
-from elbowroom.plugins import Option, PlannerPlugin, Proposal
+from elbowroom.plugins import Option, PlannerPlugin, Proposal, rows_of
 from elbowroom.scene import Scene
 
 
@@ -97,14 +95,9 @@ def _candidate(name: str, answer: Any) -> dict[str, Any]:
         }
         if isinstance(answer, Plan):
             return {"motion": answer.motion, **told}
-        t, q, v, a = (
-            None if x is None else np.ascontiguousarray(x, dtype=np.float64)
-            for x in (answer.t, answer.q, answer.v, answer.a)
-        )
-        assert t is not None
-        assert q is not None
+        t, q, v, a = rows_of(answer)
         # Times have to make sense, though they are not kept to without velocities and accelerations.
-        motion, curve = _core.interpolated(t, q, v, a)
+        motion, curve, _ = _core.interpolated(t, q, v, a)
     except (TrajectoryError, TypeError, ValueError) as error:
         raise PlannerFault(f"planner {name}: {error}", planner=name) from error
     return {"motion": motion, **told} if curve == "quintic" else {"configurations": q, **told}

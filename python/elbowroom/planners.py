@@ -17,6 +17,7 @@ from elbowroom._core import Plan, __version__
 from elbowroom.errors import BadSetting
 from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN, OwnOption, all_options
+from elbowroom.plain_numbers import number, whole
 from elbowroom.plan import plan as own_plan
 from elbowroom.plugins import BrokenPlugin, Option, PlannerPlugin, Proposal
 from elbowroom.scene import Scene
@@ -203,7 +204,7 @@ def _read(text: str, default: Option, what: str) -> Any:
     try:
         if isinstance(default, bool):
             return {"true": True, "false": False}[text.lower()]
-        value = type(default)(text)
+        value = {int: whole, float: number}.get(type(default), str)(text)
         if isinstance(value, float) and not math.isfinite(value):
             raise ValueError
     except (KeyError, ValueError):

@@ -12,10 +12,12 @@ from typing import Any, Protocol
 from numpy.typing import ArrayLike
 
 from elbowroom._core import Plan
-from elbowroom.errors import BadSetting
+from elbowroom.arrays import real_array
+from elbowroom.errors import BadSetting, TrajectoryError
 from elbowroom.objectives import Objective
 from elbowroom.own_planners import OWN
 from elbowroom.scene import Scene
+from elbowroom.trajectory_samples import Floats
 
 GROUP = "elbowroom.planners"
 """The entry point group of plug-ins."""
@@ -46,6 +48,21 @@ class Proposal:
     lower_bound: float | None = None
     timings: Mapping[str, float] = field(default_factory=dict)
     convergence: Sequence[tuple[int, float]] | None = None
+
+
+def rows_of(proposal: Proposal) -> tuple[Floats, Floats, Floats | None, Floats | None]:
+    """Return times, positions, velocities and accelerations of ``proposal`` as the core takes them.
+
+    Raises:
+        TrajectoryError: They are no real numbers, or not of the shape that they should have.
+    """
+    q, v, a = (
+        None if values is None else real_array(name, values, dimensions=2, shape="(n, joints)")
+        for name, values in (("q", proposal.q), ("v", proposal.v), ("a", proposal.a))
+    )
+    if q is None:
+        raise TrajectoryError("q is None; positions are needed")
+    return real_array("t", proposal.t, dimensions=1, shape="(n,)"), q, v, a
 
 
 class PlannerPlugin(Protocol):

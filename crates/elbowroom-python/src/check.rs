@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
 use elbowroom::planning::Monitor;
-use elbowroom::trajectory::{Samples, interpolate};
-use elbowroom::verify::{Quantity, Verdict as Found, VerifySettings, Violation, verify_until};
+use elbowroom::trajectory::{self, Samples, interpolate};
+use elbowroom::verify::{End, Quantity, Verdict as Found, VerifySettings, Violation, verify_until};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -21,6 +21,56 @@ pub(crate) enum Curve {
     Quintic,
 }
 
+/// What is asked of a trajectory, besides to keep clear of everything and within all limits.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Terms {
+    /// Between its rows.
+    pub(crate) curve: Curve,
+    /// Clearance to keep (m).
+    pub(crate) margin: f64,
+    /// The first and the last curve of one that is to begin and end at rest.
+    pub(crate) at_rest: Option<[Curve; 2]>,
+    /// How long before its beginning the arm is on its way there, which nobody has told (s).
+    pub(crate) lead: f64,
+}
+
+/// Terms as pickles keep them.
+pub(crate) type Told = (String, f64, Option<(String, String)>, f64);
+
+impl Terms {
+    /// Of a planned motion: at rest it is because it does its task.
+    pub(crate) const PLANNED: Self = Self { curve: Curve::Quintic, margin: 0.0, at_rest: None, lead: 0.0 };
+
+    pub(crate) fn told(&self) -> Told {
+        let named = |curve: Curve| curve.name().to_owned();
+        (
+            named(self.curve),
+            self.margin,
+            self.at_rest.map(|[first, last]| (named(first), named(last))),
+            self.lead,
+        )
+    }
+
+    pub(crate) fn read(py: Python<'_>, (curve, margin, at_rest, lead): &Told) -> PyResult<Self> {
+        let named = |(first, last): &(String, String)| -> PyResult<[Curve; 2]> {
+            Ok([Curve::named(py, first)?, Curve::named(py, last)?])
+        };
+        let curve = Curve::named(py, curve)?;
+        Ok(Self { curve, margin: *margin, at_rest: at_rest.as_ref().map(named).transpose()?, lead: *lead })
+    }
+
+    fn settings(&self) -> VerifySettings {
+        // Motions as fast as their acceleration allows begin with it at once; only a limit on the jerk forbids that.
+        let end = |curve: Curve| End::AtRest(curve.continuous().min(Quantity::Velocity));
+        VerifySettings {
+            margin: self.margin,
+            continuous: self.curve.continuous(),
+            ends: self.at_rest.map_or([End::Open; 2], |ends| ends.map(end)),
+            ..VerifySettings::default()
+        }
+    }
+}
+
 impl Curve {
     pub(crate) const fn name(self) -> &'static str {
         match self {
@@ -37,6 +87,14 @@ impl Curve {
                 errors::setting(py, "curve", &message)
             },
         )
+    }
+
+    const fn of(curve: trajectory::Curve) -> Self {
+        match curve {
+            trajectory::Curve::Linear => Self::Linear,
+            trajectory::Curve::Cubic => Self::Cubic,
+            trajectory::Curve::Quintic => Self::Quintic,
+        }
     }
 
     const fn continuous(self) -> Quantity {
@@ -71,7 +129,7 @@ impl Check {
     fn of(py: Python<'_>, verdict: Py<Verdict>) -> PyResult<Option<Self>> {
         let Some(asked) = verdict.get().asked() else { return Ok(None) };
         let motion = Py::new(py, Motion::from(Arc::clone(&asked.motion)))?;
-        Ok(Some(Self { motion, curve: asked.curve, verdict }))
+        Ok(Some(Self { motion, curve: asked.terms.curve, verdict }))
     }
 }
 
@@ -135,49 +193,69 @@ pub(crate) fn check_again(py: Python<'_>, verdict: Py<Verdict>) -> PyResult<Chec
         .ok_or_else(|| errors::setting(py, "verdict", "a replanner's verdict is of no trajectory"))
 }
 
-/// Return the motion through samples, and the curve taken between them: ``linear``, ``cubic`` or ``quintic``.
+/// Return the motion through samples, and the curves taken between them, each ``linear``, ``cubic`` or ``quintic``: the least
+/// of all, the first and the last.
+///
+/// ``stated`` says of each row how much of it counts: 0 for its positions alone, 1 with velocities, 2 with accelerations.
 ///
 /// Raises:
 ///     TrajectoryError: The samples make no motion.
 #[pyfunction]
-#[pyo3(signature = (times, positions, velocities=None, accelerations=None))]
+#[pyo3(signature = (times, positions, velocities=None, accelerations=None, stated=None))]
 pub(crate) fn interpolated(
     py: Python<'_>,
     times: PyReadonlyArray1<'_, f64>,
     positions: PyReadonlyArray2<'_, f64>,
     velocities: Option<PyReadonlyArray2<'_, f64>>,
     accelerations: Option<PyReadonlyArray2<'_, f64>>,
-) -> PyResult<(Motion, &'static str)> {
+    stated: Option<PyReadonlyArray1<'_, i64>>,
+) -> PyResult<(Motion, &'static str, (&'static str, &'static str))> {
+    let known = |values: PyReadonlyArray2<'_, f64>, least: i64| {
+        let mut rows = rows(&values);
+        if let Some(stated) = &stated {
+            rows.iter_mut()
+                .zip(stated.as_array())
+                .filter(|(_, of)| **of < least)
+                .for_each(|(row, _)| row.clear());
+        }
+        rows
+    };
     let samples = Samples {
         times: times.as_array().to_vec(),
         positions: rows(&positions),
-        velocities: velocities.map(|values| rows(&values)),
-        accelerations: accelerations.map(|values| rows(&values)),
+        velocities: velocities.map(|values| known(values, 1)),
+        accelerations: accelerations.map(|values| known(values, 2)),
     };
-    let (motion, curve) =
-        interpolate(&samples).map_err(|error| errors::trajectory(py, &error.to_string()))?;
-    Ok((motion.into(), curve.name()))
+    let found = interpolate(&samples).map_err(|error| errors::trajectory(py, &error.to_string()))?;
+    let [first, last] = found.ends.map(trajectory::Curve::name);
+    Ok((found.motion.into(), Curve::of(found.least).name(), (first, last)))
 }
 
-/// Return the verifier's answer on ``motion`` in ``scene``; ``curve`` says what must not jump between its pieces.
+/// Return the verifier's answer on ``motion`` in ``scene``.
+///
+/// ``curve`` says what must not jump between its pieces, ``at_rest`` the first and the last curve of one that is to begin and
+/// end at rest, ``lead`` how long before it the arm is on its way to its beginning (s), which is not judged.
 ///
 /// Raises:
 ///     TrajectoryError: It is no motion of this arm.
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense.
 #[pyfunction]
-#[pyo3(signature = (scene, motion, *, curve, margin, timeout=None))]
+#[pyo3(signature = (scene, motion, *, curve, margin, at_rest=None, lead=0.0, timeout=None))]
+#[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn verify(
     py: Python<'_>,
     scene: Py<Scene>,
     motion: Py<Motion>,
-    curve: &str,
+    curve: String,
     margin: f64,
+    at_rest: Option<(String, String)>,
+    lead: f64,
     timeout: Option<f64>,
 ) -> PyResult<Check> {
-    let curve = Curve::named(py, curve)?;
-    let verdict = judged(py, &scene, motion.get(), curve, margin, timeout)?;
-    Ok(Check { motion, curve, verdict: Py::new(py, verdict)? })
+    let terms = Terms::read(py, &(curve, margin, at_rest, lead))?;
+    let verdict = judged(py, &scene, motion.get(), terms, timeout)?;
+    Ok(Check { motion, curve: terms.curve, verdict: Py::new(py, verdict)? })
 }
 
 /// The verdict on `motion` in `scene`.
@@ -185,8 +263,7 @@ pub(crate) fn judged(
     py: Python<'_>,
     scene: &Py<Scene>,
     motion: &Motion,
-    curve: Curve,
-    margin: f64,
+    terms: Terms,
     timeout: Option<f64>,
 ) -> PyResult<Verdict> {
     let core = scene.get();
@@ -196,6 +273,7 @@ pub(crate) fn judged(
         let message = format!("it moves {moved} joints; the arm of the scene has {joints}");
         return Err(errors::trajectory(py, &message));
     }
+    let margin = terms.margin;
     if !(margin.is_finite() && margin >= 0.0) {
         return Err(errors::setting(
             py,
@@ -203,14 +281,18 @@ pub(crate) fn judged(
             &format!("margin is {margin} m, it must be finite and not negative"),
         ));
     }
-    let settings = VerifySettings { margin, continuous: curve.continuous(), ..VerifySettings::default() };
-    let (found, _) = watch::run(py, timeout, None, |watch| {
+    let settings = terms.settings();
+    let (mut found, _) = watch::run(py, timeout, None, |watch| {
         verify_until(&core.scene, motion, &settings, &|| watch.keep_going())
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));
     }
-    let asked = Asked { scene: scene.clone_ref(py), motion: Arc::clone(motion), curve, margin };
+    if terms.lead != 0.0 {
+        let (lead, time) = (terms.lead, motion.start());
+        found.violations.insert(0, Violation::NotJudged { lead, time });
+    }
+    let asked = Asked { scene: scene.clone_ref(py), motion: Arc::clone(motion), terms };
     Ok(Verdict::new(core, &found, Some(asked)))
 }
 

@@ -44,6 +44,11 @@ pub(crate) fn internal(py: Python<'_>, message: &str) -> PyErr {
     exception(py, "InternalError", &format!("a bug in elbowroom: {message}"), |_| Ok(()))
 }
 
+/// The system has no thread left to work on.
+pub(crate) fn no_threads(py: Python<'_>) -> PyErr {
+    exception(py, "ElbowroomError", "the system gives this process no threads to work on", |_| Ok(()))
+}
+
 /// The timeout, once it is known to be one.
 pub(crate) fn timeout(seconds: Option<f64>) -> PyResult<Option<f64>> {
     match seconds {

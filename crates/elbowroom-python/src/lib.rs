@@ -3,6 +3,7 @@
 
 mod check;
 mod errors;
+mod fault;
 mod free_space;
 mod motion;
 mod once;
@@ -13,6 +14,7 @@ mod plan_kept;
 mod planning;
 mod proposed;
 mod scene;
+mod threads;
 mod verdict;
 mod verdict_parts;
 mod watch;
@@ -53,8 +55,11 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        super::threads::begin();
+        super::fault::keep();
         super::scene::add_shapes(module)?;
         module.add("TICK", elbowroom::trajectory::TICK)?;
+        module.add("MAX_ROWS", elbowroom::trajectory::MAX_ROWS)?;
         module.add("ASSUMED_LIMITS", super::planning::assumed_limits(module.py())?)?;
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }

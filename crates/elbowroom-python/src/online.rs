@@ -17,6 +17,7 @@ use pyo3::types::PyList;
 use crate::errors;
 use crate::motion::Motion;
 use crate::scene::{ObstacleMotion, Scene};
+use crate::threads::with_threads;
 use crate::verdict::Verdict;
 use crate::watch;
 
@@ -63,7 +64,8 @@ impl Replanner {
         let starts = starts.map_err(|refused| errors::not_free(py, task, "start", &refused))?;
         let Some(&start) = starts.first() else { return Err(errors::internal(py, "no start")) };
         let goal = goal(py, scene, asked)?;
-        let made = py.detach(|| online::Replanner::new(scene.clone(), start, &goal, seed));
+        let made = py.detach(|| with_threads(|| online::Replanner::new(scene.clone(), start, &goal, seed)));
+        let made = made.ok_or_else(|| errors::no_threads(py))?;
         let replanner = made.map_err(|error| errors::replan(py, WHAT, task, &error))?;
         Ok(Self { replanner: Mutex::new(replanner), start })
     }

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::errors;
 use crate::motion::Motion;
-use crate::plan::{Question, Setting, every, in_order, sampled};
+use crate::plan::{Question, Setting, every, in_order, within};
 use crate::scene::Scene;
 use crate::verdict::Verdict;
 use crate::watch;
@@ -180,9 +180,12 @@ impl PaperPlan {
         every(py, &self.asked.scene, &self.motion, period)
     }
 
-    /// Return the motion at the instants ``t``, shape ``(n,)`` (s).
+    /// Return the motion at the instants ``t``, shape ``(n,)``, or at one, from 0 to the motion's end (s).
+    ///
+    /// Raises:
+    ///     BadSetting: An instant is not a number, or not within the motion.
     fn at<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        sampled(py, &self.asked.scene, &self.motion, t)
+        within(py, &self.asked.scene, &self.motion, t)
     }
 
     fn __repr__(&self) -> String {

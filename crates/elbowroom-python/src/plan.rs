@@ -6,7 +6,7 @@ use numpy::ndarray::Array2;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::check::Curve;
+use crate::check::Terms;
 use crate::motion::Motion;
 use crate::once::Once;
 use crate::plan_kept;
@@ -75,12 +75,8 @@ impl Plan {
         timings: Vec<(String, f64)>,
     ) -> PyResult<Self> {
         let motion = Motion::from(plan.trajectory().motion().clone());
-        let judged = Asked {
-            scene: asked.scene.clone_ref(py),
-            motion: motion.motion.clone(),
-            curve: Curve::Quintic,
-            margin: 0.0,
-        };
+        let judged =
+            Asked { scene: asked.scene.clone_ref(py), motion: motion.motion.clone(), terms: Terms::PLANNED };
         let verdict = Verdict::new(asked.scene.get(), plan.trajectory().verdict(), Some(judged));
         Ok(Self {
             asked,
@@ -261,9 +257,12 @@ impl Plan {
         every(py, &self.asked.scene, &self.motion, period)
     }
 
-    /// Return the motion at the instants ``t``, shape ``(n,)`` (s).
+    /// Return the motion at the instants ``t``, shape ``(n,)``, or at one, from 0 to the motion's end (s).
+    ///
+    /// Raises:
+    ///     BadSetting: An instant is not a number, or not within the motion.
     fn at<'py>(&self, py: Python<'py>, t: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-        sampled(py, &self.asked.scene, &self.motion, t)
+        within(py, &self.asked.scene, &self.motion, t)
     }
 
     fn __repr__(&self) -> String {
@@ -299,14 +298,14 @@ pub(crate) fn in_order<'py>(py: Python<'py>, timings: &[(String, f64)]) -> PyRes
     Ok(stages)
 }
 
-/// `elbowroom.samples.sampled`.
-pub(crate) fn sampled<'py>(
+/// `elbowroom.samples.within`.
+pub(crate) fn within<'py>(
     py: Python<'py>,
     scene: &Py<Scene>,
     motion: &Py<Motion>,
     t: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    py.import("elbowroom.samples")?.getattr("sampled")?.call1((scene, motion, t))
+    py.import("elbowroom.samples")?.getattr("within")?.call1((scene, motion, t))
 }
 
 /// `elbowroom.samples.every`.

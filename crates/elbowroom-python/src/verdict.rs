@@ -8,7 +8,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
-use crate::check::{self, Curve};
+use crate::check::{self, Terms, Told};
 use crate::errors;
 use crate::motion::Motion;
 use crate::scene::Scene;
@@ -38,9 +38,7 @@ struct Found {
 pub(crate) struct Asked {
     pub(crate) scene: Py<Scene>,
     pub(crate) motion: Arc<trajectory::Motion>,
-    pub(crate) curve: Curve,
-    /// Clearance to keep (m).
-    pub(crate) margin: f64,
+    pub(crate) terms: Terms,
 }
 
 /// Verdicts are equal if they say the same.
@@ -165,12 +163,13 @@ impl Verdict {
         };
         let again = py.import("elbowroom._core")?.getattr("verdict_again")?;
         let motion = Motion::from(Arc::clone(&asked.motion));
-        let told = (asked.scene.bind(py), motion, asked.curve.name(), asked.margin, self.safe());
+        let told = (asked.scene.bind(py), motion, asked.terms.told(), self.safe());
         (again, told).into_pyobject(py)
     }
 }
 
-/// Return the verdict on ``motion`` in ``scene``, judged again; ``safe`` is what an earlier one said.
+/// Return the verdict on ``motion`` in ``scene``, judged again on the same ``terms``: curve, margin, the curves at its ends if it
+/// is to be at rest there, and lead; ``safe`` is what an earlier one said.
 ///
 /// Raises:
 ///     Refuted: It was said to be safe, and is not.
@@ -179,11 +178,10 @@ pub(crate) fn verdict_again(
     py: Python<'_>,
     scene: Py<Scene>,
     motion: &Motion,
-    curve: &str,
-    margin: f64,
+    terms: Told,
     safe: bool,
 ) -> PyResult<Verdict> {
-    let verdict = check::judged(py, &scene, motion, Curve::named(py, curve)?, margin, None)?;
+    let verdict = check::judged(py, &scene, motion, Terms::read(py, &terms)?, None)?;
     if safe && !verdict.safe() {
         return Err(refuted(py, "the motion was kept as safe", verdict));
     }

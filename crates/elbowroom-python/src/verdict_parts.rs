@@ -53,7 +53,7 @@ impl Other {
 #[derive(Clone, PartialEq)]
 pub(crate) struct Violation {
     /// ``contact``, ``undecided``, ``joint_limit``, ``velocity_limit``, ``acceleration_limit``, ``jerk_limit``,
-    /// ``position_jump``, ``velocity_jump``, ``acceleration_jump``, ``too_large``, ``other_arm`` or ``stopped``.
+    /// ``position_jump``, ``velocity_jump``, ``acceleration_jump``, ``moving_start``, ``moving_end``, ``not_judged``, ``too_large``, ``other_arm`` or ``stopped``.
     #[pyo3(get)]
     kind: String,
     /// The same in words.
@@ -71,7 +71,8 @@ pub(crate) struct Violation {
     /// How much the clearance falls short of what was asked for (m).
     #[pyo3(get)]
     depth: Option<f64>,
-    /// What the joint comes to, or by how much it jumps (rad, rad/s, rad/s², rad/s³).
+    /// What the joint comes to, by how much it jumps or what it still moves at (rad, rad/s, rad/s², rad/s³); how long is not
+    /// judged (s).
     #[pyo3(get)]
     value: Option<f64>,
     /// What is allowed.
@@ -116,6 +117,12 @@ impl Violation {
             Kind::Discontinuity { joint, what, jump, .. } => {
                 Self { joint: Some(joint), value: Some(jump), ..blank(&format!("{}_jump", what.name())) }
             }
+            Kind::NotAtRest { joint, at_end, value, .. } => Self {
+                joint: Some(joint),
+                value: Some(value),
+                ..blank(if at_end { "moving_end" } else { "moving_start" })
+            },
+            Kind::NotJudged { lead, .. } => Self { value: Some(lead), ..blank("not_judged") },
             Kind::OtherArm { .. } => blank("other_arm"),
             Kind::TooLarge { joint, .. } => Self { joint: Some(joint), ..blank("too_large") },
             Kind::Stopped { .. } => blank("stopped"),

@@ -1,4 +1,3 @@
-use std::any::Any;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::Thread;
@@ -7,7 +6,8 @@ use std::time::{Duration, Instant};
 use elbowroom::planning::{Monitor, Stage};
 use pyo3::prelude::*;
 
-use crate::errors;
+use crate::threads::with_threads;
+use crate::{errors, fault};
 
 /// How long a Ctrl-C may go unnoticed.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
@@ -83,8 +83,10 @@ pub(crate) fn run<T: Send>(
     let outcome = std::thread::scope(|scope| {
         let worker = scope.spawn(|| {
             let _announce = Announce { done: &done, waiting: &waiting };
-            let result = work(&watch);
-            (result, Instant::now())
+            with_threads(|| {
+                let result = work(&watch);
+                (result, Instant::now())
+            })
         });
         let mut told = 0;
         let mut look = || -> PyResult<()> {
@@ -110,7 +112,8 @@ pub(crate) fn run<T: Send>(
         let outcome = py.detach(|| worker.join());
         looked.map(|()| outcome)
     })?;
-    let (result, end) = outcome.map_err(|panic| errors::internal(py, &in_words(&*panic)))?;
+    let outcome = outcome.map_err(|panic| errors::internal(py, &fault::in_words(&*panic)))?;
+    let (result, end) = outcome.ok_or_else(|| errors::no_threads(py))?;
     Ok((result, timings(&watch.stages(), end)))
 }
 
@@ -127,9 +130,4 @@ fn timings(stages: &[(Stage, Instant)], end: Instant) -> Timings {
         }
     }
     timings
-}
-
-fn in_words(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().map(ToString::to_string);
-    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
 }

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         velocities: Some(at_rest.clone()),
         accelerations: Some(at_rest),
     };
-    let (motion, _) = interpolate(&rows)?;
+    let motion = interpolate(&rows)?.motion;
     let mut out = std::io::stdout();
     match Trajectory::certify(&scene, motion, &VerifySettings::default()) {
         Ok(_) => writeln!(out, "safe: proved for the whole motion")?,

@@ -29,6 +29,9 @@
 //! Modules import only from those before them:
 //! `geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < roadmap < planning < planners < online`.
 
+// Sine, logarithm and their like come from `libm`, which is the same everywhere: clippy.toml lists what does not.
+#![cfg_attr(not(test), deny(clippy::disallowed_methods))]
+
 pub mod arm;
 mod decomposition;
 pub mod free_space;

@@ -1,8 +1,9 @@
 //! Polynomials over time: end conditions, continuity, peaks, and the choice of vias.
 
 use elbowroom::trajectory::{
-    Curve, Motion, MotionError, Piece, Samples, SamplesError, SpeedLimits, State, TICK, durations_by_length,
-    fastest_durations, interpolate, quintic_through, random_vias, rescaled, stretch, vias_at,
+    Curve, Interpolated, Motion, MotionError, Piece, Samples, SamplesError, SpeedLimits, State, TICK,
+    durations_by_length, fastest_durations, interpolate, quintic_through, random_vias, rescaled, stretch,
+    vias_at,
 };
 
 /// Seeded uniform numbers in [-1, 1).
@@ -257,8 +258,8 @@ fn samples_become_the_curve_a_controller_would_run() {
     for (v, a, curve) in
         [(false, false, Curve::Linear), (true, false, Curve::Cubic), (true, true, Curve::Quintic)]
     {
-        let (motion, found) = interpolate(&samples(v, a)).unwrap();
-        assert_eq!((found, motion.pieces().len()), (curve, 2));
+        let Interpolated { motion, ends, least } = interpolate(&samples(v, a)).unwrap();
+        assert_eq!((least, ends, motion.pieces().len()), (curve, [curve; 2], 2));
         for (i, piece) in motion.pieces().iter().enumerate() {
             for (state, row) in [(piece.at(0.0), i), (piece.at(piece.duration), i + 1)] {
                 assert!(near(&state.position, &positions[row], 1e-12));
@@ -281,6 +282,17 @@ fn samples_become_the_curve_a_controller_would_run() {
         interpolate(&fewer),
         Err(SamplesError::Counts { what: "accelerations", found: 1, rows: 3 })
     ));
+    // A row without velocities has straight lines beside it.
+    let mut bare = samples(true, true);
+    bare.velocities.as_mut().unwrap()[0] = vec![];
+    let mixed = interpolate(&bare).unwrap();
+    assert_eq!((mixed.least, mixed.ends), (Curve::Linear, [Curve::Linear, Curve::Quintic]));
+    assert!(near(&mixed.motion.pieces()[0].at(0.25).position, [0.5, 0.5], 1e-12));
+    bare.accelerations.as_mut().unwrap()[2] = vec![];
+    assert_eq!(interpolate(&bare).unwrap().ends, [Curve::Linear, Curve::Cubic]);
+    // The last row moves, and no curve takes that: nobody knows what is meant.
+    bare.velocities.as_mut().unwrap()[1] = vec![];
+    assert_eq!(interpolate(&bare), Err(SamplesError::EndVelocity { row: 3 }));
     let mut narrower = samples(true, false);
     narrower.velocities.as_mut().unwrap()[1] = vec![0.0];
     assert_eq!(interpolate(&narrower), Err(SamplesError::Joints { row: 2, found: 1, joints: 2 }));

@@ -3,29 +3,49 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from elbowroom.cli.failure import UNSAFE, reported
+from elbowroom.cli.options import number_option, whole_option
+
+if TYPE_CHECKING:
+    from elbowroom.check import JudgedMessage
 
 
 def check_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
     file: Annotated[Path, typer.Argument(help="Trajectory: our CSV, or a JointTrajectory as JSON or YAML.")],
     joints: Annotated[
-        str | None, typer.Option(help="Names of the joints in the file, base first: FIRST,SECOND,...")
+        str | None,
+        typer.Option(help="Names of the arm's joints in the file, base first: FIRST,SECOND,...; others are left out."),
     ] = None,
-    margin: Annotated[float, typer.Option(help="Clearance to keep (m).")] = 0.0,
-    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
+    start: Annotated[
+        str | None,
+        typer.Option(
+            "--from",
+            help="Where the arm stands at 0 s, if the first row is later: Q1,Q2,... in the scene's unit of angles.",
+        ),
+    ] = None,
+    open_end: Annotated[
+        bool,
+        typer.Option("--open-end", help="A part of a longer motion: it may begin and end while joints move."),
+    ] = False,
+    message: Annotated[
+        int | None, whole_option(help="Judge this message alone, from 1; left out, all those of the file.")
+    ] = None,
+    margin: Annotated[float, number_option(help="Clearance to keep (m).")] = 0.0,
+    timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Judge anybody's trajectory: exit code 0 only if it is proved to be safe, else 4."""
+    """Judge anybody's trajectory, from rest to rest: exit code 0 only if all of it is proved to be safe, else 4."""
     with reported():
         import json
 
-        from elbowroom.check import check_file
+        from elbowroom.check import check_messages
         from elbowroom.cli.plan_text import verdict_lines
+        from elbowroom.cli.start import start_of
         from elbowroom.errors import BadSetting
         from elbowroom.scene import Scene
 
@@ -34,12 +54,39 @@ def check_command(
         number = len(loaded.arm.joints)
         if names is not None and len(names) != number:
             raise BadSetting(f"--joints names {len(names)}; the arm of {scene} has {number} joints", setting="joints")
-        result = check_file(loaded, file, joints=names, margin=margin, timeout=timeout)
+        answers = check_messages(
+            loaded,
+            file,
+            message=message,
+            joints=names,
+            start=None if start is None else start_of(start, loaded, scene),
+            open_end=open_end,
+            margin=margin,
+            timeout=timeout,
+        )
+        safe = all(answer.safe for answer in answers)
         if as_json:
-            typer.echo(json.dumps({"curve": result.curve, **result.verdict.as_dict()}, allow_nan=False))
+            told = [_document(answer) for answer in answers]
+            whole = told[0] if len(told) == 1 else {"safe": safe, "messages": told}
+            typer.echo(json.dumps(whole, allow_nan=False))
         else:
-            pieces = len(result.motion.starts)
-            typer.echo(f"{file}: {pieces} {result.curve} pieces, {result.motion.duration:.3f} s")
-            typer.echo("\n".join(verdict_lines(result.verdict)))
-        if not result.safe:
+            for answer in answers:
+                typer.echo(_title(file, answer))
+                typer.echo("\n".join(verdict_lines(answer.check.verdict, loaded, open_end=open_end)))
+                for note in answer.notes:
+                    typer.echo(f"  {note}")
+            if len(answers) > 1:
+                typer.echo("how the arm gets from one message to the next was not judged")
+        if not safe:
             raise typer.Exit(UNSAFE)
+
+
+def _title(file: Path, answer: JudgedMessage) -> str:
+    motion = answer.check.motion
+    which = f", message {answer.number} of {answer.count}" if answer.count > 1 else ""
+    return f"{file}{which}: {len(motion.starts)} {answer.check.curve} pieces, {motion.duration:.3f} s"
+
+
+def _document(answer: JudgedMessage) -> dict[str, Any]:
+    told: dict[str, Any] = {"curve": answer.check.curve, **answer.check.verdict.as_dict(), "notes": list(answer.notes)}
+    return told if answer.count == 1 else {"message": answer.number, **told}

@@ -12,6 +12,7 @@ from typing import Annotated, Any
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.cli.options import folder_option, number_option, whole_option
 from elbowroom.objectives import LISTED
 from elbowroom.own_planners import OWN
 
@@ -28,16 +29,16 @@ def compare_command(
     tasks: Annotated[
         str | None, typer.Option(help="Names with commas between, to be there in every scene; all if left out.")
     ] = None,
-    seeds: Annotated[int, typer.Option(min=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
+    seeds: Annotated[int, whole_option(least=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
     budget: Annotated[
-        int | None, typer.Option(min=1, help="Evaluations a run, for planners that take a number; else their own.")
+        int | None, whole_option(least=1, help="Evaluations a run, for planners that take a number; else their own.")
     ] = None,
-    timeout: Annotated[float | None, typer.Option(help="A run gives up after so many seconds.")] = None,
+    timeout: Annotated[float | None, number_option(help="A run gives up after so many seconds.")] = None,
     objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
     out: Annotated[
-        Path, typer.Option(help="Folder for the rows, report.md and the pictures; rows there are not run again.")
+        Path, folder_option(help="Folder for the rows, report.md and the pictures; rows there are not run again.")
     ] = Path("out/compare"),
-    jobs: Annotated[int | None, typer.Option(min=1, help="Runs at a time; all cores if left out.")] = None,
+    jobs: Annotated[int | None, whole_option(least=1, help="Runs at a time; all cores if left out.")] = None,
     on: Annotated[str, typer.Option(help="local, or ray for a Ray cluster.")] = "local",
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:

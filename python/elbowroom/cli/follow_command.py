@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from elbowroom.cli.failure import NOTHING_FOUND, UNSAFE, reported
+from elbowroom.cli.options import folder_option, number_option, whole_option
 
 if TYPE_CHECKING:
     from elbowroom.follow import Followed
@@ -16,16 +17,16 @@ if TYPE_CHECKING:
 def follow_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML) whose obstacles may move.")],
     task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
-    rate: Annotated[float, typer.Option(help="Updates a second (Hz); a step has to be whole milliseconds.")] = 50.0,
-    horizon: Annotated[float, typer.Option(help="How long the arm has (s, simulated).")] = 60.0,
-    seed: Annotated[int, typer.Option(help="Of what is drawn by lot.")] = 0,
+    rate: Annotated[float, number_option(help="Updates a second (Hz); a step has to be whole milliseconds.")] = 50.0,
+    horizon: Annotated[float, number_option(help="How long the arm has (s, simulated).")] = 60.0,
+    seed: Annotated[int, whole_option(help="Of what is drawn by lot.")] = 0,
     deadline: Annotated[
         float | None,
-        typer.Option(help="Cut every update short after so many seconds; decisions then depend on the clock."),
+        number_option(help="Cut every update short after so many seconds; decisions then depend on the clock."),
     ] = None,
-    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds (real).")] = None,
+    timeout: Annotated[float | None, number_option(help="Give up after so many seconds (real).")] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for follow.json, decisions.jsonl, trajectory.csv and the pictures.")
+        Path | None, folder_option(help="Folder for follow.json, decisions.jsonl, trajectory.csv and the pictures.")
     ] = None,
     animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,

@@ -29,4 +29,4 @@ def in_words(followed: Followed) -> str:
     if doubtful := found["updates_not_safe"]:
         lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")
     lines.append("what was followed, among the obstacles as they really moved:")
-    return "\n".join([*lines, *verdict_lines(followed.check.verdict)])
+    return "\n".join([*lines, *verdict_lines(followed.check.verdict, followed.true_scene)])

@@ -8,14 +8,15 @@ from typing import Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.cli.options import folder_option, whole_option
 
 
 def generate_command(
-    out: Annotated[Path, typer.Option(help="Folder for the scene files.")],
-    count: Annotated[int, typer.Option(min=1, help="How many scenes.")] = 50,
-    seed: Annotated[int, typer.Option(min=0, help="Same seed, same scenes.")] = 0,
+    out: Annotated[Path, folder_option(help="Folder for the scene files.")],
+    count: Annotated[int, whole_option(least=1, help="How many scenes.")] = 50,
+    seed: Annotated[int, whole_option(least=0, help="Same seed, same scenes.")] = 0,
     links: Annotated[
-        int, typer.Option(min=2, help="How many links the arm has; with more than 2 it must not touch itself.")
+        int, whole_option(least=2, help="How many links the arm has; with more than 2 it must not touch itself.")
     ] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Callable
 from typing import Annotated
 
 import typer
 
 from elbowroom.cli.check_command import check_command
 from elbowroom.cli.compare_command import compare_command
+from elbowroom.cli.failure import BAD_INPUT, told
 from elbowroom.cli.follow_command import follow_command
 from elbowroom.cli.generate_command import generate_command
 from elbowroom.cli.map_command import map_command
@@ -21,7 +24,8 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
-    epilog="Exit codes: 0 done, 1 proved that there is no path, 2 bad input, 3 nothing found in time, 4 not safe.",
+    epilog="Exit codes: 0 done, 1 proved that there is no path, 2 bad input, 3 nothing found in time, 4 not safe, "
+    "70 a fault of elbowroom itself.",
 )
 app.command("plan")(plan_command)
 app.command("check")(check_command)
@@ -51,4 +55,22 @@ def _options(
 
 def main() -> None:
     """Run the program."""
-    app()
+    try:
+        # Typer would end with 1 on Ctrl-C, which here says that there is no path.
+        code = app(standalone_mode=False)
+    except BaseException as error:
+        if isinstance(error, SystemExit):
+            raise
+        code = _exit_code(error)
+    sys.exit(code)
+
+
+def _exit_code(error: BaseException) -> int:
+    if isinstance(error, typer.Abort):
+        error = KeyboardInterrupt()
+    if (code := told(error)) is not None:
+        return code
+    # A complaint about the words of the command line.
+    show: Callable[[], None] = getattr(error, "show", lambda: None)
+    show()
+    return int(getattr(error, "exit_code", BAD_INPUT))

@@ -8,11 +8,12 @@ from typing import Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.cli.options import folder_option
 
 
 def map_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
-    out: Annotated[Path | None, typer.Option(help="Folder for the pictures of the maps.")] = None,
+    out: Annotated[Path | None, folder_option(help="Folder for the pictures of the maps.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Map where the tip may stand, per posture, and why it may not elsewhere."""

@@ -8,12 +8,13 @@ from typing import Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.cli.options import folder_option, whole_option
 
 
 def paper_command(
-    out: Annotated[Path, typer.Option(help="Folder for the pictures and report.md.")] = Path("out/paper"),
-    seed: Annotated[int, typer.Option(help="Seed of the runs that are drawn.")] = 0,
-    seeds: Annotated[int, typer.Option(min=1, help="How many seeds the counts are over.")] = 100,
+    out: Annotated[Path, folder_option(help="Folder for the pictures and report.md.")] = Path("out/paper"),
+    seed: Annotated[int, whole_option(help="Seed of the runs that are drawn.")] = 0,
+    seeds: Annotated[int, whole_option(least=1, help="How many seeds the counts are over.")] = 100,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Redo the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from elbowroom.cli.failure import reported
+from elbowroom.cli.options import folder_option, number_option, whole_option
 from elbowroom.objectives import LISTED
 from elbowroom.own_planners import OWN
 
@@ -28,14 +29,14 @@ def plan_command(
         ),
     ] = None,
     objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
-    seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
-    timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
+    seed: Annotated[int, whole_option(help="Seed of the swarm.")] = 0,
+    timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
     duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
     gap: Annotated[
         float | None,
-        typer.Option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %)."),
+        number_option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %)."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
+    out: Annotated[Path | None, folder_option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
     animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
@@ -48,7 +49,7 @@ def plan_command(
         from elbowroom.errors import BadSetting
         from elbowroom.plan import plan as make_plan
         from elbowroom.plan_files import as_json as document
-        from elbowroom.plan_files import write_plan
+        from elbowroom.plan_files import check_length, write_plan
         from elbowroom.planners import chosen
         from elbowroom.scene import Scene
 
@@ -56,6 +57,8 @@ def plan_command(
         choice = None if planner is None else chosen(planner)
         if animate and out is None:
             raise BadSetting("--animate needs --out, a folder to write to", setting="animate")
+        if out is not None and seconds is not None:
+            check_length(seconds)
         loaded = Scene.load(scene)
         with progress() as show:
             plan = _planned(
@@ -108,10 +111,11 @@ def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
 
 def _seconds(duration: str) -> float | None:
     from elbowroom.errors import BadSetting
+    from elbowroom.plain_numbers import number
 
     if duration == "fastest":
         return None
     try:
-        return float(duration)
+        return number(duration)
     except ValueError:
         raise BadSetting(f"duration is '{duration}'; a number of seconds, or fastest", setting="duration") from None

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from elbowroom._core import Clearance, Plan, Verdict
 from elbowroom.numbered import numbered
 from elbowroom.objectives import OBJECTIVES
+from elbowroom.scene import Scene
 
 MOST_STOPS = 3
 """With more joints that have stops than this, only the one nearest to a stop gets a line."""
@@ -26,9 +28,9 @@ def in_words(plan: Plan) -> str:
         lines.append(
             f"no motion costs less than {plan.lower_bound:.6f}: this one is within {100 * plan.gap:.2f} % of the best"
         )
-    lines += verdict_lines(plan.verdict)
+    lines += verdict_lines(plan.verdict, plan.scene)
     if plan.assumed_limits:
-        lines.append(f"not stated in the scene, so taken as {_assumed(plan)}")
+        lines.append(f"planned within what was assumed in place of limits: {_assumed(plan)}")
     return "\n".join(lines)
 
 
@@ -58,10 +60,21 @@ def _against(nearest: Clearance) -> str:
     return f"obstacle {nearest.obstacle}" + (f" ({nearest.name})" if nearest.name else "")
 
 
-def verdict_lines(verdict: Verdict) -> list[str]:
-    """Return ``verdict`` for people."""
-    lines = ["SAFE: proved for the whole motion" if verdict.safe else "NOT SAFE"]
-    lines += [f"  {violation.message}" for violation in verdict.violations]
+def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> list[str]:
+    """Return ``verdict`` on a motion in ``scene`` for people; ``open_end`` if it might begin and end moving."""
+    judged, left_out = _judged(verdict, scene)
+    violations = list(verdict.violations)
+    # What nobody has looked at comes before all else.
+    unknown = violations.pop(0) if violations and violations[0].kind == "not_judged" else None
+    if unknown is not None:
+        lines = [f"NOT SAFE: {unknown.message}; say where it starts: --from Q1,Q2,..."]
+    elif not verdict.safe:
+        lines = ["NOT SAFE"]
+    elif open_end:
+        lines = ["SAFE: proved from the first row to the last; what comes before and after was not judged"]
+    else:
+        lines = ["SAFE: proved for the whole motion" + ", in all that was judged" * bool(left_out)]
+    lines += [f"  {violation.message}" for violation in violations]
     nearest = verdict.least_clearance
     if nearest is not None:
         lines.append(
@@ -75,4 +88,36 @@ def verdict_lines(verdict: Verdict) -> list[str]:
     changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
-    return lines
+    return [*lines, f"  judged: {', '.join(judged)}", *(f"  NOT judged, {what}" for what in left_out)]
+
+
+def _judged(verdict: Verdict, scene: Scene) -> tuple[list[str], list[str]]:
+    """What ``verdict`` is about, and what of a motion the scene does not ask to be judged."""
+    # Neighbours may touch: with two links there is nothing to ask.
+    alone = len(scene.arm.links) < 3
+    judged = ["contact with obstacles", "joint limits"]
+    judged += [] if alone or not scene.arm.self_collision else ["contact between links"]
+    without_limits = []
+    for rate, unit in UNIT_OF_RATE.items():
+        margins = [getattr(of_joint, rate) for of_joint in verdict.motion_margins]
+        without = [joint for joint, margin in enumerate(margins, 1) if margin.limit is None]
+        if len(without) < len(margins):
+            judged.append(rate + _of(without, len(margins), of_those=False))
+        if without:
+            greatest = max(margins[joint - 1].largest for joint in without)
+            reached = f" (up to {math.degrees(greatest):.4g} {unit})" if greatest > 0.0 else ""
+            without_limits.append(rate + _of(without, len(margins), of_those=True) + reached)
+    left_out = []
+    if without_limits:
+        left_out.append(f"as the scene states no limits: {', '.join(without_limits)}")
+    if not alone and not scene.arm.self_collision:
+        left_out.append("as the scene does not ask for it (arm.self_collision): contact between links")
+    return judged, left_out
+
+
+def _of(without: Sequence[int], joints: int, *, of_those: bool) -> str:
+    """Which joints have a limit, or have none, if not all of them."""
+    if len(without) in (0, joints):
+        return ""
+    those = list(without) if of_those else [joint for joint in range(1, joints + 1) if joint not in without]
+    return f" of {numbered('joint', those)}"

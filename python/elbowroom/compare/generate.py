@@ -12,6 +12,7 @@ from elbowroom.compare.generate_chain import generated_chain
 from elbowroom.errors import BadSetting, SceneError
 from elbowroom.scene import Scene
 from elbowroom.whole import check_whole
+from elbowroom.whole_files import write_whole
 
 LINK = 25.0
 """Length of both links (cm)."""
@@ -107,7 +108,7 @@ def write_scenes(count: int, folder: Path, *, seed: int, links: int = 2) -> list
             text = generated(number, seed=seed)
         else:
             text = generated_chain(number, seed=seed, links=links, obstacles=_obstacles)
-        path.write_text(text, encoding="utf-8", newline="\n")
+        write_whole(path, text)
         paths.append(path)
     return paths
 

@@ -26,6 +26,7 @@ from elbowroom.compare.summary import (
 from elbowroom.figures import save
 from elbowroom.figures.compare import Curve, Panel, Shares, convergence, side_by_side
 from elbowroom.objectives import OBJECTIVES
+from elbowroom.whole_files import write_whole
 
 MOST_TASKS = 24
 """With more tasks than this each gets a line instead of a section with a picture."""
@@ -79,13 +80,9 @@ def write_report(
                 )
             parts += [_pairs_of(task.pairs, "pairs of runs"), _failures(task)]
     parts.append(READING)
-    report = folder / "report.md"
-    report.write_text("\n\n".join(part for part in parts if part) + "\n", encoding="utf-8")
-    pairs = folder / "pairs.csv"
-    pairs.write_text(
-        _as_csv([*summary.pairs, *(pair for task in summary.tasks for pair in task.pairs)]), encoding="utf-8"
-    )
-    return [report, pairs, *pictures]
+    report = write_whole(folder / "report.md", "\n\n".join(part for part in parts if part) + "\n")
+    every_pair = [*summary.pairs, *(pair for task in summary.tasks for pair in task.pairs)]
+    return [report, write_whole(folder / "pairs.csv", _as_csv(every_pair)), *pictures]
 
 
 READING = """## How to read it

@@ -7,15 +7,12 @@ from collections.abc import Mapping, Sequence
 from time import perf_counter
 from typing import Any
 
-import numpy as np
-
-from elbowroom._core import Check, Plan, gap, mismatch, verify
-from elbowroom.check import check
+from elbowroom._core import Check, Plan, gap, interpolated, mismatch, verify
 from elbowroom.compare.measure import lengths
 from elbowroom.compare.row import Failure, Problem, Row
 from elbowroom.errors import BadSetting, NoPath, NotFound, NotFree, TimedOut, TrajectoryError, UnknownTask
 from elbowroom.planners import OwnPlanner, load
-from elbowroom.plugins import BrokenPlugin, PlannerPlugin, Proposal
+from elbowroom.plugins import BrokenPlugin, PlannerPlugin, Proposal, rows_of
 from elbowroom.scene import Scene
 
 
@@ -120,12 +117,10 @@ def _verified(scene: Scene, answer: Plan | Proposal) -> Check:
     """What the verifier says of ``answer`` in ``scene``, whatever it says of itself: a plan may be of another scene."""
     if isinstance(answer, Plan):
         return verify(scene, answer.motion, curve="quintic", margin=0.0)
-    t, q, v, a = (
-        None if x is None else np.asarray(x, dtype=np.float64) for x in (answer.t, answer.q, answer.v, answer.a)
-    )
-    assert t is not None
-    assert q is not None
-    return check(scene, t=t, q=q, v=v, a=a)
+    t, q, v, a = rows_of(answer)
+    motion, curve, _ = interpolated(t, q, v, a)
+    # Whether it begins and ends where it should, at rest, is another question.
+    return verify(scene, motion, curve=curve, margin=0.0)
 
 
 def _finite(value: Any, name: str) -> float:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -15,6 +14,7 @@ from msgspec.structs import asdict
 
 from elbowroom.compare.row import DamagedRow, Row
 from elbowroom.errors import ElbowroomError
+from elbowroom.whole_files import write_whole, written_whole
 
 
 @dataclass(eq=False, repr=False, kw_only=True)
@@ -55,7 +55,7 @@ class Table:
                 whole = content + b"\n"
             except DamagedTable:
                 pass
-            _replace(self.path, whole)
+            write_whole(self.path, whole)
 
     def _take(self, line: bytes, number: int) -> None:
         try:
@@ -76,7 +76,7 @@ class Table:
     def close(self) -> None:
         """Sort the file: the same rows make the same file, whatever order they came in."""
         self._file.close()
-        _replace(self.path, b"".join(row.as_line().encode() + b"\n" for row in in_order(self.rows.values())))
+        write_whole(self.path, b"".join(row.as_line().encode() + b"\n" for row in in_order(self.rows.values())))
 
     def abandon(self) -> None:
         """Leave the file as it is, unsorted and whole."""
@@ -86,16 +86,6 @@ class Table:
 def in_order(rows: Iterable[Row]) -> list[Row]:
     """Return ``rows`` by scene, task, planner and seed."""
     return sorted(rows, key=lambda row: (row.scene, row.task, row.planner, row.seed, row.key))
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Write all of it or nothing: a kill in between leaves the old file."""
-    fresh = path.with_name(path.name + ".new")
-    with fresh.open("wb") as file:
-        file.write(content)
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(fresh, path)
 
 
 def parquet_is_there() -> bool:
@@ -132,5 +122,6 @@ def write_parquet(rows: Iterable[Row], path: Path) -> Path:
         values["settings"] = json.dumps(values["settings"])
         values["stages_s"] = json.dumps(values["stages_s"])
         flat.append(values)
-    pq.write_table(pa.Table.from_pylist(flat, schema=schema), path)
+    with written_whole(path) as fresh:
+        pq.write_table(pa.Table.from_pylist(flat, schema=schema), fresh)
     return path

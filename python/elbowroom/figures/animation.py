@@ -11,6 +11,7 @@ from matplotlib.artist import Artist
 from elbowroom.figures.links import DrawnArm, link_legend
 from elbowroom.figures.style import CM, INK, SMOOTHED, legend_beside, mark_base, mark_ends, plane
 from elbowroom.plan import AnyPlan
+from elbowroom.whole_files import written_whole
 
 FRAMES_PER_SECOND = 20
 
@@ -43,5 +44,6 @@ def animate(plan: AnyPlan, path: Path) -> Path:
 
     path.parent.mkdir(parents=True, exist_ok=True)
     moving = FuncAnimation(figure, show, frames=frames + 1)
-    moving.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND))
+    with written_whole(path) as fresh:
+        moving.save(fresh, writer=PillowWriter(fps=FRAMES_PER_SECOND))
     return path

@@ -15,6 +15,7 @@ from matplotlib.patches import Circle as CirclePatch
 from matplotlib.patches import Polygon as PolygonPatch
 
 from elbowroom.scene import Outline, Pair, Scene
+from elbowroom.whole_files import written_whole
 
 CM = 100.0
 """Pictures show centimetres, as the paper does."""
@@ -168,5 +169,6 @@ def legend_beside(
 def save(figure: Figure, path: Path) -> Path:
     """Write ``figure`` to ``path`` and return it."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)
+    with written_whole(path) as fresh:
+        figure.savefig(fresh, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)
     return path

@@ -22,6 +22,7 @@ from elbowroom.follow.goal import Goal
 from elbowroom.known import Known, Sighting
 from elbowroom.samples import Floats, sampled
 from elbowroom.scene import Obstacle, ObstacleMotion
+from elbowroom.whole_files import written_whole
 
 AHEAD = 1.0
 """Arrows show where an obstacle goes within so long (s)."""
@@ -150,7 +151,8 @@ def animate(followed: Followed, path: Path) -> Path:
 
     path.parent.mkdir(parents=True, exist_ok=True)
     moving_picture = FuncAnimation(figure, show, frames=frames + 1 + END)
-    moving_picture.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND))
+    with written_whole(path) as fresh:
+        moving_picture.save(fresh, writer=PillowWriter(fps=FRAMES_PER_SECOND))
     return path
 
 

@@ -13,6 +13,7 @@ from elbowroom._core import __version__
 from elbowroom.follow.followed import Followed, Step
 from elbowroom.known import Known, Sighting
 from elbowroom.plan_files import table
+from elbowroom.whole_files import write_whole
 
 
 def summary(followed: Followed) -> dict[str, Any]:
@@ -54,7 +55,7 @@ def write_followed(followed: Followed, folder: Path) -> list[Path]:
         "trajectory.csv": table(followed.samples),
     }
     for name, text in texts.items():
-        (folder / name).write_text(text, encoding="utf-8", newline="")
+        write_whole(folder / name, text)
     return [folder / name for name in texts]
 
 

@@ -14,6 +14,7 @@ from elbowroom.paper.report import as_markdown
 from elbowroom.paper.trial import Trial
 from elbowroom.plan import plan_as_in_paper
 from elbowroom.scene import Scene
+from elbowroom.whole_files import write_whole
 
 SCENES = ("paper-standin", "paper-table1", "paper-empty")
 
@@ -46,7 +47,7 @@ def reproduce(out: Path, *, seed: int = 0, seeds: int = 100, show: Callable[[str
             tell(f"{name}: task {task.name}")
             trials.append(_try(name, scene, space, task, folder, seed=seed, seeds=seeds, tell=tell))
     report = out / "report.md"
-    report.write_text(as_markdown(trials, maps, seed=seed, folder=out), encoding="utf-8")
+    write_whole(report, as_markdown(trials, maps, seed=seed, folder=out))
     return report
 
 

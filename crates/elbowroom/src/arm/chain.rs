@@ -206,7 +206,8 @@ impl Arm {
         self.assert_one_each(from);
         self.assert_one_each(to);
         let joints = self.joints.iter().zip(from.iter().zip(to));
-        let squares = joints.map(|(joint, (&from, &to))| joint.limits.difference(from, to).powi(2));
+        let square = |way: f64| way * way;
+        let squares = joints.map(|(joint, (&from, &to))| square(joint.limits.difference(from, to)));
         squares.sum::<f64>().sqrt()
     }
 

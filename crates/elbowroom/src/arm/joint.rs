@@ -141,7 +141,7 @@ pub struct MotionLimits {
 
 /// A limit of a joint's motion that is none.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("greatest {rate} is {value}, it must be finite and greater than 0")]
+#[error("greatest {rate} is {value:?}, it must be finite and greater than 0: from 1e-6 to 1e12")]
 pub struct MotionLimitError {
     /// `velocity`, `acceleration` or `jerk`.
     pub rate: &'static str,
@@ -150,14 +150,17 @@ pub struct MotionLimitError {
 }
 
 impl MotionLimits {
+    /// What a limit may be (rad/s, rad/s², rad/s³): beyond it no motor is, and times and their powers lose their digits.
+    pub const RATES: std::ops::RangeInclusive<f64> = 1e-6..=1e12;
+
     /// Refuses rates that are none: every arm asks.
     ///
     /// # Errors
-    /// [`MotionLimitError`] names the first that is not finite, or not greater than 0.
+    /// [`MotionLimitError`] names the first that is not finite, or not within [`RATES`](Self::RATES).
     pub fn check(&self) -> Result<(), MotionLimitError> {
         let rates = [("velocity", self.velocity), ("acceleration", self.acceleration), ("jerk", self.jerk)];
         let wrong = |(rate, limit): (&'static str, Option<f64>)| {
-            limit.filter(|value| !(value.is_finite() && *value > 0.0)).map(|value| (rate, value))
+            limit.filter(|value| !Self::RATES.contains(value)).map(|value| (rate, value))
         };
         match rates.into_iter().find_map(wrong) {
             Some((rate, value)) => Err(MotionLimitError { rate, value }),

@@ -86,7 +86,7 @@ fn best_choice(arm: &TwoLink, choices: &[Vec<[f64; 2]>]) -> Vec<usize> {
                 let from = &pair[0][i];
                 let step = arm.difference(from, to);
                 let jumps = usize::from(jump_between(from, to, &step).is_some());
-                (efforts[i].0 + jumps, efforts[i].1 + step[0].hypot(step[1]))
+                (efforts[i].0 + jumps, efforts[i].1 + libm::hypot(step[0], step[1]))
             };
             let by_effort = |a: &usize, b: &usize| {
                 let (a, b) = (through(*a), through(*b));

@@ -163,5 +163,5 @@ fn along(path: &Geodesic, starts: &[([f64; 2], MeshPoint)]) -> Option<JointPath>
 fn is_straight(from: &[f64; 2], middle: &[f64; 2], to: &[f64; 2]) -> bool {
     let [a, b] = [0, 1].map(|j| middle[j] - from[j]);
     let [c, d] = [0, 1].map(|j| to[j] - from[j]);
-    (a * d - b * c).abs() <= STRAIGHT * c.hypot(d) && a * c + b * d >= 0.0
+    (a * d - b * c).abs() <= STRAIGHT * libm::hypot(c, d) && a * c + b * d >= 0.0
 }

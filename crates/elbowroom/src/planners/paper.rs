@@ -7,7 +7,7 @@ use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
-use crate::planning::{Monitor, Stage, standing_still};
+use crate::planning::{LONGEST_DURATION, Monitor, SHORTEST_DURATION, Stage, is_duration, standing_still};
 use crate::roadmap::UnionGraph;
 use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
 use crate::search::{Dstar, GoalError, Graph, Until};
@@ -85,8 +85,8 @@ pub enum PaperError {
     /// A setting of the swarm makes no sense.
     #[error(transparent)]
     Swarm(#[from] GuidedSwarmError),
-    /// The motion shall take no time, or a time that is no number.
-    #[error("duration is {duration} s, it must be finite and greater than 0")]
+    /// The motion shall take no time, a time that is no number, or one beyond all measure.
+    #[error("duration is {duration:?} s, it must be from {SHORTEST_DURATION} to {LONGEST_DURATION} s")]
     Duration {
         /// What was asked (s).
         duration: f64,
@@ -203,7 +203,7 @@ fn check(settings: &PaperSettings) -> Result<(), PaperError> {
     if let Method::DstarPso(swarm) = &settings.method {
         swarm.check()?;
     }
-    if !(settings.duration.is_finite() && settings.duration > 0.0) {
+    if !is_duration(settings.duration) {
         return Err(PaperError::Duration { duration: settings.duration });
     }
     Ok(())

@@ -78,7 +78,7 @@ impl Shortcut<'_> {
 
     fn distance(&self, a: &[f64; 2], b: &[f64; 2]) -> f64 {
         match self.plane {
-            Plane::Joints(weights) => ((b[0] - a[0]) * weights[0]).hypot((b[1] - a[1]) * weights[1]),
+            Plane::Joints(weights) => libm::hypot((b[0] - a[0]) * weights[0], (b[1] - a[1]) * weights[1]),
             Plane::Tip(_) => self.scene.arm().tip(a).distance(self.scene.arm().tip(b)),
         }
     }

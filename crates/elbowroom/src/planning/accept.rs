@@ -4,8 +4,8 @@ use super::candidate::Proposed;
 use super::limits::stated_limits;
 use super::smoothing::{SmoothError, Smoothed, Style, smooth};
 use super::{
-    END_ROUNDING, Found, Mismatch, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
-    mismatch,
+    AssumedLimit, END_ROUNDING, Found, Mismatch, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord,
+    Problem, Stage, mismatch,
 };
 use crate::arm::Configuration;
 use crate::path::{JointPath, straight_move_is_free};
@@ -85,10 +85,22 @@ pub(super) fn accepted(
         joint_path,
         vias,
         stops: trajectory.motion().stops(),
-        assumed_limits: problem.assumed_limits.clone(),
+        assumed_limits: kept(&problem.assumed_limits, &trajectory),
         effort: found.effort,
     };
     Ok(Plan::new(record, trajectory))
+}
+
+/// The limits that were assumed and that the motion keeps: one that takes as long as it was asked to may go beyond them, which
+/// only the scene could forbid.
+fn kept(assumed: &[AssumedLimit], trajectory: &Trajectory) -> Vec<AssumedLimit> {
+    let margins = &trajectory.verdict().motion_margins;
+    let keeps = |limit: &&AssumedLimit| {
+        margins[limit.joint - 1]
+            .of(limit.rate)
+            .is_some_and(|margin| margin.largest <= limit.value * (1.0 + SAME_COST))
+    };
+    assumed.iter().filter(keeps).copied().collect()
 }
 
 /// How the motion fails to be what was asked for.

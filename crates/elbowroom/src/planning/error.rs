@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{Mismatch, NoPath};
+use super::{LONGEST_DURATION, Mismatch, NoPath, SHORTEST_DURATION};
 use crate::arm::Posture;
 use crate::free_space::NotFree;
 use crate::geometry::Point;
@@ -45,8 +45,8 @@ pub enum PlanError {
         /// In its own words.
         reason: String,
     },
-    /// The motion shall take no time, or a time that is no number.
-    #[error("duration is {duration} s, it must be finite and greater than 0")]
+    /// The motion shall take no time, a time that is no number, or one beyond all measure.
+    #[error("duration is {duration:?} s, it must be from {SHORTEST_DURATION} to {LONGEST_DURATION} s")]
     Duration {
         /// What was asked (s).
         duration: f64,

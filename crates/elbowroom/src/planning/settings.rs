@@ -1,4 +1,4 @@
-use super::{Objective, PlanError};
+use super::{Objective, PlanError, is_duration};
 
 /// How long a motion takes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -31,9 +31,7 @@ impl PlanSettings {
             return Err(PlanError::Gap { gap });
         }
         match self.pace {
-            Pace::Duration(duration) if !(duration.is_finite() && duration > 0.0) => {
-                Err(PlanError::Duration { duration })
-            }
+            Pace::Duration(duration) if !is_duration(duration) => Err(PlanError::Duration { duration }),
             _ => Ok(()),
         }
     }

@@ -13,14 +13,14 @@ pub struct Samples {
     pub times: Vec<f64>,
     /// One per time, a number per joint (rad).
     pub positions: Vec<Vec<f64>>,
-    /// One per time (rad/s), or unknown.
+    /// One per time (rad/s), or unknown; empty where a row has none.
     pub velocities: Option<Vec<Vec<f64>>>,
-    /// One per time (rad/s²), or unknown; of use only beside velocities.
+    /// One per time (rad/s²), or unknown; empty where a row has none. Of use only beside velocities.
     pub accelerations: Option<Vec<Vec<f64>>>,
 }
 
 /// The curve taken between two samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Curve {
     /// Straight in every joint: positions are known.
     Linear,
@@ -76,6 +76,15 @@ pub enum SamplesError {
         /// Which.
         row: usize,
     },
+    /// The arm moves at an end by the velocities stated there, which no curve takes: the row beside it has none.
+    #[error(
+        "row {row} states velocities that are not 0, the row beside it states none, so that the curve between them is linear; \
+         give velocities in both rows, or in none"
+    )]
+    EndVelocity {
+        /// Which.
+        row: usize,
+    },
     /// A time is not after the one before it.
     #[error("row {row} is at {time} s, which is not after the {before} s of the row before")]
     Times {
@@ -91,43 +100,73 @@ pub enum SamplesError {
     Motion(#[from] MotionError),
 }
 
+/// Samples as a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Interpolated {
+    /// The motion.
+    pub motion: Motion,
+    /// The curve of the first piece and that of the last.
+    pub ends: [Curve; 2],
+    /// The least of all curves, by what is known of both rows.
+    pub least: Curve,
+}
+
 /// The motion through `samples`, with the curves that ROS 2's joint trajectory controller would run between them:
-/// quintic where velocities and accelerations are known, cubic with velocities alone, else linear.
+/// quintic between rows of which velocities and accelerations are known, cubic with velocities alone, else linear.
 ///
 /// # Errors
 /// [`SamplesError`] names the first row at fault.
-pub fn interpolate(samples: &Samples) -> Result<(Motion, Curve), SamplesError> {
+pub fn interpolate(samples: &Samples) -> Result<Interpolated, SamplesError> {
     check(samples)?;
-    let curve = match (&samples.velocities, &samples.accelerations) {
-        (Some(_), Some(_)) => Curve::Quintic,
-        (Some(_), None) => Curve::Cubic,
-        (None, _) => Curve::Linear,
-    };
     if let [start] = samples.times[..] {
         let standing = |&position: &f64| [position, 0.0, 0.0, 0.0, 0.0, 0.0];
         let coefficients = samples.positions[0].iter().map(standing).collect();
-        return Ok((Motion::new(vec![Piece { start, duration: 0.0, coefficients }])?, curve));
+        let motion = Motion::new(vec![Piece { start, duration: 0.0, coefficients }])?;
+        let curve = samples.known(0);
+        return Ok(Interpolated { motion, ends: [curve; 2], least: curve });
     }
     let of = |values: &Option<Vec<Vec<f64>>>, i: usize, j: usize| {
-        values.as_ref().map_or(0.0, |values| values[i][j])
+        values.as_ref().and_then(|values| values[i].get(j)).copied().unwrap_or(0.0)
     };
     let state = |i: usize, j: usize| {
         [samples.positions[i][j], of(&samples.velocities, i, j), of(&samples.accelerations, i, j)]
     };
-    let between = match curve {
-        Curve::Quintic => quintic,
-        Curve::Cubic => cubic,
-        Curve::Linear => linear,
-    };
+    let curve = |i: usize| samples.known(i - 1).min(samples.known(i));
     let joints = samples.positions[0].len();
     let pieces = (1..samples.times.len())
         .map(|i| {
+            let between = match curve(i) {
+                Curve::Quintic => quintic,
+                Curve::Cubic => cubic,
+                Curve::Linear => linear,
+            };
             let (start, duration) = (samples.times[i - 1], samples.times[i] - samples.times[i - 1]);
             let coefficients = (0..joints).map(|j| between(state(i - 1, j), state(i, j), duration)).collect();
             Piece { start, duration, coefficients }
         })
         .collect();
-    Ok((Motion::new(pieces)?, curve))
+    let last = samples.times.len() - 1;
+    for (row, beside) in [(0, 1), (last, last)] {
+        let moves = || (0..joints).any(|j| of(&samples.velocities, row, j) != 0.0);
+        if curve(beside) == Curve::Linear && moves() {
+            return Err(SamplesError::EndVelocity { row: row + 1 });
+        }
+    }
+    let least = (1..=last).map(curve).min().unwrap_or(Curve::Linear);
+    Ok(Interpolated { motion: Motion::new(pieces)?, ends: [curve(1), curve(last)], least })
+}
+
+impl Samples {
+    /// The best curve that what is known of this row serves for.
+    fn known(&self, row: usize) -> Curve {
+        let has =
+            |values: &Option<Vec<Vec<f64>>>| values.as_ref().is_some_and(|values| !values[row].is_empty());
+        match (has(&self.velocities), has(&self.accelerations)) {
+            (true, true) => Curve::Quintic,
+            (true, false) => Curve::Cubic,
+            (false, _) => Curve::Linear,
+        }
+    }
 }
 
 fn check(samples: &Samples) -> Result<(), SamplesError> {
@@ -149,9 +188,10 @@ fn check(samples: &Samples) -> Result<(), SamplesError> {
     }
     let joints = samples.positions[0].len();
     for row in 0..rows {
-        for (_, values) in known {
+        for (what, values) in known {
             if let Some(values) = values
                 && values[row].len() != joints
+                && (what == "positions" || !values[row].is_empty())
             {
                 return Err(SamplesError::Joints { row: row + 1, found: values[row].len(), joints });
             }

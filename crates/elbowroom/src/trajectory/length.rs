@@ -34,7 +34,8 @@ impl Motion {
     /// Length of the way in configuration space (rad).
     pub fn joint_length(&self) -> f64 {
         self.integral(|piece, s| {
-            let squares = piece.coefficients.iter().map(|terms| derivative_at(terms, 1, s).powi(2));
+            let square = |speed: f64| speed * speed;
+            let squares = piece.coefficients.iter().map(|terms| square(derivative_at(terms, 1, s)));
             squares.sum::<f64>().sqrt()
         })
     }

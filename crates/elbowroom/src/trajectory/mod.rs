@@ -16,7 +16,7 @@ mod via;
 pub(crate) use b_spline::{spline_along, third_point};
 pub use brake::brake;
 pub use departure::departing;
-pub use interpolate::{Curve, MAX_ROWS, Samples, SamplesError, interpolate};
+pub use interpolate::{Curve, Interpolated, MAX_ROWS, Samples, SamplesError, interpolate};
 pub use motion::{Motion, MotionError};
 pub(crate) use piece::quintic;
 pub use piece::{Piece, State};

@@ -1,4 +1,5 @@
 use super::continuity;
+use super::ends;
 use super::limits;
 use super::posture_changes::posture_changes;
 use super::sweep::Passage;
@@ -13,8 +14,8 @@ use crate::trajectory::Motion;
 /// Obstacles that move are looked at in space and time, over the whole time of the motion, by their courses; one whose
 /// course is unknown may be anywhere that its greatest speed allows.
 ///
-/// Start and end need not be at rest. Joint limits are closed and allowed 1e-12 rad of rounding, motion limits
-/// a share of 1e-12.
+/// Start and end need not be at rest unless the settings ask for it. Joint limits are closed: what rounding alone can put
+/// beyond them is allowed, 1e-12 rad and some last places of the polynomial's terms; motion limits a share of 1e-12.
 ///
 /// # Reference
 /// Schwarzer, Saha and Latombe, *Adaptive dynamic collision checking*, IEEE T-RO 21(3), 2005, for the bisection
@@ -47,6 +48,7 @@ pub fn verify_until(
     }
     let pieces = limits::workable_pieces(motion, &mut violations);
     let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
+    ends::check(motion, joints, settings.ends, &mut violations);
     let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
     let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
     let passage = Passage { scene, pieces: &pieces, passed_jumps: &passed_jumps };
@@ -79,6 +81,7 @@ pub(crate) fn clear_until(
     let mut violations = Vec::new();
     let pieces = limits::workable_pieces(motion, &mut violations);
     let passed_jumps = continuity::check(motion.pieces(), joints, settings.continuous, &mut violations);
+    ends::check(motion, joints, settings.ends, &mut violations);
     for (j, joint) in joints.iter().enumerate() {
         limits::check(joint, j, pieces.iter().copied(), &mut violations);
     }

@@ -6,7 +6,9 @@ use super::verdict::{JointMargin, MotionMargin, MotionMargins, Rate, Violation};
 use crate::arm::{Joint, JointLimits};
 use crate::trajectory::{Motion, Piece};
 
-/// How far beyond a stop rounding may put a joint (rad), and the share of the stop's angle to add.
+/// How far beyond a stop rounding may put a joint besides that of its polynomial (rad), and the share of the stop's angle to
+/// add. All of it together is less than 1e-10 of the angle: the terms of a polynomial of degree five amount to no more than
+/// 3363 times its greatest value over the interval (Chebyshev), so a joint that is truly beyond is not let pass for their size.
 const STOP_ROUNDING: f64 = 1e-12;
 const STOP_ROUNDING_SHARE: f64 = 64.0 * f64::EPSILON;
 
@@ -83,7 +85,7 @@ fn stop_margin(
     let JointLimits::Range { min, max } = joint.limits else { return None };
     for (peak, sign, limit) in [(lowest, -1.0, min), (highest, 1.0, max)] {
         let angle = sign * peak.bound;
-        let beyond = sign * (angle - limit);
+        let beyond = peak.unrounded - sign * limit;
         if beyond > STOP_ROUNDING + STOP_ROUNDING_SHARE * limit.abs() {
             violations.push(Violation::JointLimit { joint: j + 1, time: peak.time, angle, limit });
         }

@@ -12,6 +12,7 @@ mod bound_tips;
 mod check;
 mod clearance;
 mod continuity;
+mod ends;
 mod limits;
 mod moving;
 mod pairs;
@@ -29,8 +30,9 @@ pub use bound_tips::{OpenTips, bound_over_tips};
 pub(crate) use check::clear_until;
 pub use check::{verify, verify_until};
 pub use continuity::JUMP_ROUNDING;
+pub use ends::REST_ROUNDING;
 pub use posture_changes::MOST_POSTURE_CHANGES;
-pub use settings::{FLOOR, VerifySettings};
+pub use settings::{End, FLOOR, VerifySettings};
 pub use trajectory::Trajectory;
 pub use verdict::{
     Against, Clearance, JointMargin, MotionMargin, MotionMargins, Quantity, Rate, Verdict, Violation,

@@ -10,6 +10,10 @@ const DEEPEST: u32 = 40;
 /// Halvings in all after which every interval is taken as it is; a peak takes about two for each digit.
 const MOST_HALVINGS: u32 = 2000;
 
+/// Rounding of the terms of a polynomial and of its coefficients, in shares of what `Bernstein` allows for the latter: a
+/// quintic from one stop to the other has terms that amount to 63 times its way.
+const TERMS: f64 = 2.0;
+
 /// The greatest value seen so far, over the pieces of a motion.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Peak {
@@ -19,6 +23,9 @@ pub(super) struct Peak {
     pub(super) time: f64,
     /// Proved: no value is greater.
     pub(super) bound: f64,
+    /// The bound without what rounding may have put into it and into the terms themselves: a polynomial meant to end at a
+    /// value gets no farther.
+    pub(super) unrounded: f64,
 }
 
 struct Search {
@@ -30,7 +37,8 @@ struct Search {
 
 impl Peak {
     /// Before anything was seen.
-    pub(super) const NONE: Self = Self { value: f64::NEG_INFINITY, time: 0.0, bound: f64::NEG_INFINITY };
+    pub(super) const NONE: Self =
+        Self { value: f64::NEG_INFINITY, time: 0.0, bound: f64::NEG_INFINITY, unrounded: f64::NEG_INFINITY };
 
     /// Looks at a polynomial over the stretch of time from `start`, `duration` long (s).
     pub(super) fn raise<const N: usize>(&mut self, polynomial: &Bernstein<N>, start: f64, duration: f64) {
@@ -66,6 +74,7 @@ impl Peak {
         };
         if high <= self.value + search.slack || depth == DEEPEST || search.halvings_left == 0 {
             self.bound = self.bound.max(high + polynomial.rounding);
+            self.unrounded = self.unrounded.max(high - TERMS * polynomial.rounding);
             return;
         }
         search.halvings_left -= 1;

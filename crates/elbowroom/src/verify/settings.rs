@@ -14,11 +14,23 @@ pub struct VerifySettings {
     /// What must not jump where pieces meet, all before it included. Jumps beyond it count only against joints with
     /// a limit on the next rate.
     pub continuous: Quantity,
+    /// What is asked of the start and of the end of the motion.
+    pub ends: [End; 2],
+}
+
+/// What is asked of a motion where it begins or ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// Nothing: the arm may be moving there.
+    Open,
+    /// That the arm stands still beyond it. Up to this quantity nothing may jump from there to rest; a jump beyond it counts
+    /// only against joints with a limit on the next rate.
+    AtRest(Quantity),
 }
 
 impl Default for VerifySettings {
-    /// No margin. A link that moves by 1 m and stays within 0.1 mm of an obstacle all along is still decided.
+    /// No margin, open ends. A link that moves by 1 m and stays within 0.1 mm of an obstacle all along is still decided.
     fn default() -> Self {
-        Self { margin: 0.0, evaluations: 1 << 17, continuous: Quantity::Acceleration }
+        Self { margin: 0.0, evaluations: 1 << 17, continuous: Quantity::Acceleration, ends: [End::Open; 2] }
     }
 }

@@ -81,6 +81,18 @@ pub struct MotionMargins {
     pub jerk: MotionMargin,
 }
 
+impl MotionMargins {
+    /// That of the rate with this [`Rate::name`].
+    pub(crate) fn of(&self, rate: &str) -> Option<&MotionMargin> {
+        let all = [
+            (Rate::Velocity, &self.velocity),
+            (Rate::Acceleration, &self.acceleration),
+            (Rate::Jerk, &self.jerk),
+        ];
+        all.into_iter().find(|(known, _)| known.name() == rate).map(|(_, margin)| margin)
+    }
+}
+
 /// The greatest absolute value of one rate, beside its limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionMargin {
@@ -220,6 +232,33 @@ pub enum Violation {
         /// By how much.
         jump: f64,
     },
+    /// A joint is not at rest where the motion begins or ends, and was to be.
+    #[error(
+        "joint {joint} {} at {time} s: its {} is {value} {} there",
+        if *at_end { "does not come to rest where the motion ends," } else { "is not at rest where the motion begins," },
+        what.name(),
+        what.unit()
+    )]
+    NotAtRest {
+        /// Which joint.
+        joint: usize,
+        /// Whether at the end, or at the start.
+        at_end: bool,
+        /// Of what.
+        what: Quantity,
+        /// How much of it.
+        value: f64,
+        /// When (s).
+        time: f64,
+    },
+    /// The motion begins later than it was said to: what the arm does until then is not in it.
+    #[error("how the arm gets to the first row in the {lead} s before it was not judged")]
+    NotJudged {
+        /// How long before (s).
+        lead: f64,
+        /// When the motion begins (s).
+        time: f64,
+    },
     /// The motion is that of an arm with another number of joints.
     #[error("the motion moves {found} joints, the arm has {joints}")]
     OtherArm {
@@ -255,6 +294,8 @@ impl Violation {
             | Self::JointLimit { time, .. }
             | Self::MotionLimit { time, .. }
             | Self::Discontinuity { time, .. }
+            | Self::NotAtRest { time, .. }
+            | Self::NotJudged { time, .. }
             | Self::OtherArm { time, .. }
             | Self::TooLarge { time, .. }
             | Self::Stopped { time } => time,

@@ -90,7 +90,9 @@ impl<'a> PathObjective<'a> {
             })
             .sum();
         let flipped = match (self.keeps_posture, q, start) {
-            (true, [_, bend], [_, before]) if bend.sin() * before.sin() < 0.0 => bend.sin().abs(),
+            (true, [_, bend], [_, before]) if libm::sin(*bend) * libm::sin(*before) < 0.0 => {
+                libm::sin(*bend).abs()
+            }
             _ => 0.0,
         };
         let [_, reach] = self.scene.arm().reach();
