@@ -79,11 +79,13 @@ def compare_command(
             say("drawing")
             report, *_ = write_report(done.rows, out, planners=labels, command=command, show=say)
         successes = sum(row.success for row in done.rows)
+        apart = sum(not row.applicable for row in done.rows)
         if as_json:
             found = {
                 "runs": len(done.rows),
                 "run_now": done.fresh,
                 "success": successes,
+                "not_applicable": apart,
                 "rows": str(done.table),
                 "parquet": None if done.parquet is None else str(done.parquet),
                 "report": str(report),
@@ -94,7 +96,9 @@ def compare_command(
             typer.echo(f"{done.table}: a half-written last line was cut off and its run made again")
         kept = len(done.rows) - done.fresh
         typer.echo(
-            f"{len(done.rows)} runs, {successes} with success" + (f"; {kept} were there already" if kept else "")
+            f"{len(done.rows)} runs, {successes} with success"
+            + (f", {apart} not applicable: the planner does not serve the arm, task or setting" if apart else "")
+            + (f"; {kept} were there already" if kept else "")
         )
         if done.beside:
             typer.echo(f"{done.beside} rows of other runs are in the table and not in the report")

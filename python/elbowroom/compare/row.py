@@ -44,6 +44,9 @@ FAILURES: dict[str, str] = {
 }
 """What can become of a run instead of success."""
 
+NOT_APPLICABLE: Failure = "refused"
+"""Such a run was never in the race: it counts neither as success nor as failure, and takes part in no test."""
+
 MEASURED = ("time_s", "stages_s")
 """Columns that no two runs share; in all others the same run gives the same row."""
 
@@ -193,6 +196,11 @@ class Row(Problem, frozen=True, kw_only=True, forbid_unknown_fields=True):
             return msgspec.convert(read, cls)
         except msgspec.ValidationError as error:
             raise DamagedRow(_in_words(str(error))) from None
+
+    @property
+    def applicable(self) -> bool:
+        """Whether the planner serves the arm, task and settings of the run."""
+        return self.failure != NOT_APPLICABLE
 
     @property
     def lasting(self) -> dict[str, Any]:
