@@ -24,6 +24,7 @@ from elbowroom._core import (
     Scene,
     Segment,
     Task,
+    Units,
     Verdict,
     Violation,
 )
@@ -87,6 +88,7 @@ __all__ = [
     "Task",
     "TimedOut",
     "TrajectoryError",
+    "Units",
     "UnknownTask",
     "Update",
     "Verdict",

@@ -200,7 +200,7 @@ pub(crate) fn judged(
         return Err(errors::setting(
             py,
             "margin",
-            &format!("margin is {margin} m, it must be finite and not negative"),
+            &format!("margin is {}, it must be finite and not negative", core.units().stated_length(margin)),
         ));
     }
     let settings = VerifySettings { margin, continuous: curve.continuous(), ..VerifySettings::default() };

@@ -1,6 +1,7 @@
 //! A plan as Python shows it.
 
 use elbowroom::planning::{self, Objective};
+use elbowroom::units::short;
 use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -12,7 +13,6 @@ use crate::once::Once;
 use crate::plan_kept;
 use crate::scene::Scene;
 use crate::verdict::{Asked, Verdict};
-use crate::words::short;
 
 /// What a planner found for a task: a motion that is proved to be safe in its scene, and how it came to be.
 ///

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use elbowroom::trajectory;
+use elbowroom::units::short;
 use elbowroom::verify::{self, FLOOR};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -13,7 +14,6 @@ use crate::errors;
 use crate::motion::Motion;
 use crate::scene::Scene;
 use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
-use crate::words::short;
 
 /// What the verifier says of a motion. ``safe`` is a proof; ``bool(verdict)`` is the same.
 ///
@@ -52,8 +52,9 @@ impl PartialEq for Verdict {
 
 impl Verdict {
     pub(crate) fn new(scene: &Scene, verdict: &verify::Verdict, asked: Option<Asked>) -> Self {
+        let margin = asked.as_ref().map_or(0.0, |asked| asked.margin);
         let found = Found {
-            violations: verdict.violations.iter().map(|violation| Violation::of(scene, violation)).collect(),
+            violations: verdict.violations.iter().map(|one| Violation::of(scene, margin, one)).collect(),
             least_clearance: verdict.least_clearance.map(|least| Clearance::of(scene, &least)),
             joint_margins: verdict.joint_margins.iter().map(|m| m.as_ref().map(JointMargin::of)).collect(),
             motion_margins: verdict.motion_margins.iter().map(MotionMargins::of).collect(),

@@ -73,7 +73,7 @@ fn motion_limits_that_are_none_are_refused_by_the_joint_s_number() {
             for value in [f64::NAN, -1.0, -f64::MIN_POSITIVE, 0.0, -0.0, f64::INFINITY, f64::NEG_INFINITY] {
                 let error = with(Some(value)).unwrap_err();
                 assert!(
-                    error.to_string().contains(&format!("joint {number}: greatest {rate} is")),
+                    error.to_string().contains(&format!("joint {number}: limit on {rate} is")),
                     "{error}"
                 );
                 let ArmError::MotionLimit { joint, error: MotionLimitError { rate: named, value: found } } =

@@ -40,6 +40,6 @@ def check_command(
         else:
             pieces = len(result.motion.starts)
             typer.echo(f"{file}: {pieces} {result.curve} pieces, {result.motion.duration:.3f} s")
-            typer.echo("\n".join(verdict_lines(result.verdict)))
+            typer.echo("\n".join(verdict_lines(result.verdict, loaded.units)))
         if not result.safe:
             raise typer.Exit(UNSAFE)

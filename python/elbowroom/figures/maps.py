@@ -33,13 +33,12 @@ def posture_map(scene: Scene, space: FreeSpace, *, posture: str) -> Figure:
 
 
 def union_map(scene: Scene, space: FreeSpace) -> Figure:
-    """Return the map of both postures together: in how many postures the tip may stand at each grid point."""
+    """Return the map of both postures together: how many free configurations put the tip on each grid point."""
     figure, axes = plane(f"free Cartesian space, both postures ({scene.grid.step * CM:g} cm grid)", scene)
-    postures = space.elbow_up.free.astype(np.uint8) + space.elbow_down.free
     colours = (OUT_OF_REACH, FREE, TWO_POSTURES)
-    _show(axes, scene, postures, colours)
-    counts = [int(np.count_nonzero(postures == i)) for i in range(3)]
-    names = ("no posture", "one posture", "both postures")
+    _show(axes, scene, space.configurations, colours)
+    counts = [space.cases[case] for case in ("none", "one", "two")]
+    names = ("no configuration", "one configuration", "two configurations")
     patches = [
         Patch(color=colour, label=f"{name} ({count})")
         for name, colour, count in zip(names, colours, counts, strict=True)

@@ -3,11 +3,12 @@ use std::f64::consts::TAU;
 use thiserror::Error;
 
 use crate::geometry::{angle_difference, wrap_angle};
+use crate::units::{Told, Units};
 
 /// Rounding that inverse kinematics may put between an angle and the limit it lies on (rad).
 const LIMIT_ROUNDING: f64 = 1e-12;
 
-/// Widest range of a joint with stops (rad); beyond it angles lose the digits the checks rely on.
+/// Widest range of a joint with limits (rad); beyond it angles lose the digits the checks rely on.
 const WIDEST_RANGE: f64 = 1e3 * TAU;
 
 /// Where a joint may turn.
@@ -15,11 +16,11 @@ const WIDEST_RANGE: f64 = 1e3 * TAU;
 pub enum JointLimits {
     /// All the way round, again and again: a circle.
     Continuous,
-    /// Between two stops, both included: a line. 0 and 2π are then different places.
+    /// Between two limits, both included: a line. 0 and 2π are then different places.
     Range {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
 }
@@ -28,21 +29,38 @@ pub enum JointLimits {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JointLimitsError {
     /// Infinite, not a number, or further than a thousand turns from 0.
-    #[error("limits are {min} rad to {max} rad, they must lie within a thousand turns of 0")]
+    #[error("{}", self.told(Units::SI))]
     OutsideRange {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
-    /// The lower stop is above the upper one.
-    #[error("lower limit {min} rad is above upper limit {max} rad")]
+    /// The lower limit is above the upper one.
+    #[error("{}", self.told(Units::SI))]
     Reversed {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
+}
+
+impl Told for JointLimitsError {
+    fn told(&self, units: Units) -> String {
+        match *self {
+            Self::OutsideRange { min, max } => format!(
+                "limits are {} to {}, they must lie within a thousand turns of 0",
+                units.stated_angle(min),
+                units.stated_angle(max)
+            ),
+            Self::Reversed { min, max } => format!(
+                "lower limit {} is above upper limit {}",
+                units.stated_angle(min),
+                units.stated_angle(max)
+            ),
+        }
+    }
 }
 
 impl JointLimits {
@@ -112,17 +130,17 @@ impl JointLimits {
 /// The fastest a joint may move; `None` where the user stated no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionLimits {
-    /// Greatest speed (rad/s).
+    /// Maximum speed (rad/s).
     pub velocity: Option<f64>,
-    /// Greatest acceleration (rad/s²).
+    /// Maximum acceleration (rad/s²).
     pub acceleration: Option<f64>,
-    /// Greatest jerk (rad/s³).
+    /// Maximum jerk (rad/s³).
     pub jerk: Option<f64>,
 }
 
 /// A limit of a joint's motion that is none.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("greatest {rate} is {value}, it must be finite and greater than 0")]
+#[error("limit on {rate} is {value}, it must be finite and greater than 0")]
 pub struct MotionLimitError {
     /// `velocity`, `acceleration` or `jerk`.
     pub rate: &'static str,

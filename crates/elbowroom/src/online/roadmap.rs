@@ -71,13 +71,13 @@ pub struct Route {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum NoRoute {
     /// No free point of the grid can be reached by a straight turn from where the arm is.
-    #[error("the arm can turn to no free point of the grid from where it is")]
+    #[error("no free grid point can be reached by a straight joint motion from where the arm is")]
     Start,
     /// Every goal is blocked.
     #[error("every goal is blocked for now")]
     Goal,
     /// The search found no way over this grid.
-    #[error("there is no way over this grid for now")]
+    #[error("the grid has no path to a goal for now")]
     NotFound,
     /// The caller said no.
     #[error("stopped by the caller")]

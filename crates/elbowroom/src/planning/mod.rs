@@ -31,7 +31,7 @@ pub use candidate::{Candidate, Found, Pick};
 pub use effort::Effort;
 pub use endpoints::Endpoints;
 pub use error::PlanError;
-pub(crate) use error::standing_still;
+pub(crate) use error::{FINER, static_only};
 pub(crate) use limits::motion_limits;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use mismatch::{END_ROUNDING, Mismatch, mismatch};

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use crate::geometry::Vector;
+use crate::units::{Told, Units, apart};
 
 /// The most way-points of one moving obstacle.
 pub const MOST_WAYPOINTS: usize = 10_000;
@@ -71,13 +72,13 @@ pub enum Sight {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ObstacleMotionError {
     /// No way-point, or more than are served.
-    #[error("{found} way-points, 1 to {MOST_WAYPOINTS} are allowed")]
+    #[error("{found} waypoints, 1 to {MOST_WAYPOINTS} are allowed")]
     Waypoints {
         /// How many.
         found: usize,
     },
     /// A way-point is not after the one before it.
-    #[error("way-point {index} is at {time} s, which is not after the {before} s of the one before")]
+    #[error("waypoint {index} is at {time} s, which is not after the {before} s of the one before")]
     Times {
         /// Which, from 0.
         index: usize,
@@ -97,13 +98,28 @@ pub enum ObstacleMotionError {
         positive: bool,
     },
     /// The course is faster than the greatest speed declared.
-    #[error("the course goes at {found} m/s, the greatest speed declared is {declared} m/s")]
+    #[error("{}", self.told(Units::SI))]
     TooFast {
         /// Of the course (m/s).
         found: f64,
         /// What was declared (m/s).
         declared: f64,
     },
+}
+
+impl Told for ObstacleMotionError {
+    fn told(&self, units: Units) -> String {
+        match *self {
+            Self::TooFast { found, declared } => {
+                let unit = units.length.name();
+                let [found, declared] = apart(units.of_metres(found), units.of_metres(declared));
+                format!(
+                    "the obstacle moves at up to {found} {unit}/s, the greatest speed declared is {declared} {unit}/s"
+                )
+            }
+            Self::Waypoints { .. } | Self::Times { .. } | Self::Number { .. } => self.to_string(),
+        }
+    }
 }
 
 impl ObstacleMotion {
@@ -120,8 +136,8 @@ impl ObstacleMotion {
         course.check()?;
         match sight {
             Sight::Always => {}
-            Sight::From(time) => number("time of sight", time, false)?,
-            Sight::Within(radius) => number("radius of sight", radius, true)?,
+            Sight::From(time) => number("seen_from", time, false)?,
+            Sight::Within(radius) => number("sensing radius", radius, true)?,
         }
         let found = course.greatest_speed();
         let declared = greatest_speed.unwrap_or(found);
@@ -206,8 +222,8 @@ impl Course {
                     return Err(ObstacleMotionError::Waypoints { found: waypoints.len() });
                 }
                 for waypoint in waypoints {
-                    number("time of a way-point", waypoint.time, false)?;
-                    vector("shift of a way-point", waypoint.shift)?;
+                    number("time of a waypoint", waypoint.time, false)?;
+                    vector("shift of a waypoint", waypoint.shift)?;
                 }
                 let late = (1..waypoints.len()).find(|&i| waypoints[i].time <= waypoints[i - 1].time);
                 late.map_or(Ok(()), |index| {
@@ -218,7 +234,7 @@ impl Course {
             Self::Drift { start, velocity } => {
                 number("start", *start, false).and(vector("velocity", *velocity))
             }
-            Self::Chase { keep_off } => number("distance to keep off", *keep_off, true),
+            Self::Chase { keep_off } => number("keep_off", *keep_off, true),
             Self::Absent => Ok(()),
             Self::Unknown { seen, shift } => number("time", *seen, false).and(vector("shift", *shift)),
         }

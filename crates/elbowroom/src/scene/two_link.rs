@@ -22,7 +22,7 @@ pub enum TwoLinkError {
         found: usize,
     },
     /// An obstacle moves.
-    #[error("it takes obstacles to stand still; {} moves", super::obstacle::in_words(*obstacle, name.as_deref()))]
+    #[error("only for static obstacles; {} moves", super::obstacle_in_words(*obstacle, name.as_deref()))]
     Moving {
         /// Its number, from 0.
         obstacle: usize,

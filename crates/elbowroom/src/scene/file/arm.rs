@@ -1,9 +1,9 @@
 use super::error::ParseProblem;
 use super::keys::Keys;
-use super::units::Units;
 use super::value::{Fault, Map, Value};
-use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits};
+use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, LENGTHS, MOST_LINKS, MotionLimits};
 use crate::geometry::Point;
+use crate::units::Units;
 
 pub(super) const ARM: Keys =
     Keys { required: &["links", "joints"], optional: &["half_width", "base", "self_collision"] };
@@ -46,7 +46,9 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
         None => false,
     };
     Arm::new(base, lengths, half_width, joints, self_collision).map_err(|error| match error {
-        ArmError::Length { link, .. } => links[link - 1].out_of_range("at least 1e-6 m"),
+        ArmError::Length { link, .. } => {
+            links[link - 1].out_of_range(format!("at least {}", units.stated_length(*LENGTHS.start())))
+        }
         ArmError::AlwaysTouching { link, .. } => links[link - 1].fault(error.into()),
         _ => value.fault(error.into()),
     })
@@ -58,14 +60,14 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
         (Some(continuous), None, None) => {
             continuous
                 .word(&["true"])
-                .map_err(|_| continuous.shape("true; a joint with stops has min and max instead"))?;
+                .map_err(|_| continuous.shape("true; a joint with limits has min and max instead"))?;
             JointLimits::Continuous
         }
         (Some(_), ..) => {
             let (found, allowed) = ("continuous beside min or max".to_owned(), "one or the other".to_owned());
             return Err(value.fault(ParseProblem::Shape { found, allowed }));
         }
-        (None, Some(min), Some(max)) => stops(value, &min, &max, units)?,
+        (None, Some(min), Some(max)) => range(value, &min, &max, units)?,
         (None, Some(_), None) => return Err(value.fault(ParseProblem::MissingKey { key: "max" })),
         (None, None, Some(_)) => return Err(value.fault(ParseProblem::MissingKey { key: "min" })),
         (None, None, None) => {
@@ -80,9 +82,9 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
     Ok(Joint { limits, motion })
 }
 
-fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
+fn range(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
     let (low, high) = (min.number()?, max.number()?);
-    let (min_angle, max_angle) = (units.angle(low), units.angle(high));
+    let (min_angle, max_angle) = (units.radians(low), units.radians(high));
     JointLimits::range(min_angle, max_angle).map_err(|error| match error {
         JointLimitsError::Reversed { .. } => {
             joint.fault(ParseProblem::LimitsReversed { min: low, max: high })
@@ -96,7 +98,7 @@ fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> R
 
 fn rate(map: &Map<'_>, key: &str, units: Units) -> Result<Option<f64>, Fault> {
     map.optional(key)
-        .map(|value| match units.angle(value.number()?) {
+        .map(|value| match units.radians(value.number()?) {
             limit if limit > 0.0 => Ok(limit),
             _ => Err(value.out_of_range("greater than 0")),
         })
