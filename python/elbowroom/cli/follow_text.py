@@ -21,8 +21,8 @@ def in_words(followed: Followed) -> str:
     spent = {name: f"{measured(value * 1e3)} ms" for name, value in found["update_s"].items()}
     lines = [
         f"task '{followed.task}': {end}",
-        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, "
-        f"{decisions['stop']} times braked to rest",
+        f"{found['updates']} updates at {followed.rate:g} Hz: {_count(decisions['new'], 'new motion')}, "
+        f"{_count(decisions['stop'], 'time')} braked to rest",
         f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
     if late := found["update_s"]["longer_than_a_step"]:
@@ -31,3 +31,7 @@ def in_words(followed: Followed) -> str:
         lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")
     lines.append("what was followed, among the obstacles as they really moved:")
     return "\n".join([*lines, *verdict_lines(followed.check.verdict, followed.scene.units)])
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

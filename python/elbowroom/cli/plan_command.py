@@ -94,7 +94,10 @@ def plan_command(
 
 def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
     """What ``make`` returns; where it proves that there is no path the proof is drawn into ``out``."""
+    from dataclasses import replace
+
     from elbowroom.errors import NoPath
+    from elbowroom.walls import walls_in_words
 
     try:
         return make()
@@ -103,6 +106,8 @@ def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
             from elbowroom import figures
 
             typer.echo(f"wrote {figures.save(figures.no_path(scene, proof), out / 'no_path.png')}", err=True)
+        if walls := walls_in_words(scene, proof):
+            raise replace(proof, message=f"{proof.message}\naround all that the start can reach: {walls}") from None
         raise
 
 

@@ -106,7 +106,7 @@ READING = """## How to read it
   for all pairs of the table.
   *Delta* is Cliff's: -1 if the first planner is always the smaller, 0 if neither, 1 if always the greater.
 - Pictures: a box holds the middle half of the runs with success, the thick line is the median, whiskers reach to the
-  farthest run within one and a half boxes, and every run is a point.
+  farthest run within one and a half boxes, and every run is a point. A diamond stands for runs that are all the same.
 - `rows.jsonl` has every run with what is needed to make it again, `pairs.csv` every test."""
 
 

@@ -9,10 +9,14 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.artist import Artist
 
 from elbowroom.figures.links import DrawnArm, link_legend
-from elbowroom.figures.style import CM, INK, SMOOTHED, legend_beside, mark_base, mark_ends, plane
+from elbowroom.figures.paths import with_verdict
+from elbowroom.figures.style import INK, MOTION, coordinates, legend_beside, mark_base, mark_ends, plane
 from elbowroom.plan import AnyPlan
 
 FRAMES_PER_SECOND = 20
+
+END = 20
+"""Frames that the last picture stays."""
 
 MOST_FRAMES = 400
 """A longer motion is shown faster than it is."""
@@ -26,22 +30,23 @@ def animate(plan: AnyPlan, path: Path) -> Path:
     duration = plan.motion.duration
     frames = min(max(round(duration * FRAMES_PER_SECOND), 1), MOST_FRAMES)
     samples = plan.at(np.linspace(0.0, duration, frames + 1))
-    figure, axes = plane(f"task '{plan.task}'", plan.scene)
-    figure.set_dpi(80)
+    figure, axes = plane(with_verdict(f"task '{plan.task}'", plan), plan.scene)
+    figure.set_dpi(100)
     start, goal = samples.tip[0], samples.tip[-1]
-    mark_ends(axes, (start[0], start[1]), (goal[0], goal[1]))
+    mark_ends(axes, plan.scene, (start[0], start[1]), (goal[0], goal[1]))
     mark_base(axes, plan.scene)
-    trail = axes.plot([], [], color=SMOOTHED, linewidth=1.6, zorder=4, label="tip")[0]
+    trail = axes.plot([], [], color=MOTION, linewidth=1.6, zorder=4, label="tip")[0]
     arm = DrawnArm(axes, plan.scene)
     clock = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", color=INK, fontsize=10)
     legend_beside(axes, after=link_legend(plan.scene))
 
-    def show(i: int) -> list[Artist]:
-        trail.set_data(samples.tip[: i + 1, 0] * CM, samples.tip[: i + 1, 1] * CM)
+    def show(frame: int) -> list[Artist]:
+        i = min(frame, frames)
+        trail.set_data(*coordinates(plan.scene, samples.tip[: i + 1]))
         clock.set_text(f"{samples.t[i]:.2f} s")
         return [trail, *arm.move(samples.link_ends[i]), clock]
 
     path.parent.mkdir(parents=True, exist_ok=True)
-    moving = FuncAnimation(figure, show, frames=frames + 1)
+    moving = FuncAnimation(figure, show, frames=frames + 1 + END)
     moving.save(path, writer=PillowWriter(fps=FRAMES_PER_SECOND))
     return path

@@ -26,5 +26,5 @@ def clearances(followed: Followed) -> dict[str, Floats]:
                 ]
             )
     if still:
-        found["standing obstacles"] = scene.replace(obstacles=still).link_clearances(samples.q).min(axis=1)
+        found["static obstacles"] = scene.replace(obstacles=still).link_clearances(samples.q).min(axis=1)
     return found

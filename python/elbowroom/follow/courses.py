@@ -27,13 +27,6 @@ def shifted(obstacle: Obstacle, by: Pair) -> Obstacle:
     return obstacle.shifted(by).replace(motion=None)
 
 
-def middle(obstacle: Obstacle) -> Floats:
-    """Return the middle of ``obstacle`` where the scene has it (m)."""
-    corners = np.array(obstacle.outline[0])
-    centre: Floats = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    return centre
-
-
 def as_recorded(scene: Scene, recorded: Mapping[int, Sequence[tuple[float, Pair]]]) -> Scene:
     """Return ``scene`` with obstacles on the ways that were ``recorded``: times (s) and shifts (m), by their place."""
     obstacles = list(scene.obstacles)
