@@ -25,7 +25,7 @@ MOST_FRAMES = 400
 def animate(plan: AnyPlan, path: Path) -> Path:
     """Write a GIF of the arm along its motion to ``path`` and return it; in real time up to 20 s.
 
-    Links are as wide as they are, strokes if they have no width.
+    Links are as wide as they are, strokes if they have no width. The clearance is that of the instant shown.
     """
     duration = plan.motion.duration
     frames = min(max(round(duration * FRAMES_PER_SECOND), 1), MOST_FRAMES)
@@ -39,11 +39,13 @@ def animate(plan: AnyPlan, path: Path) -> Path:
     arm = DrawnArm(axes, plan.scene)
     clock = axes.text(0.02, 0.97, "", transform=axes.transAxes, va="top", color=INK, fontsize=10)
     legend_beside(axes, after=link_legend(plan.scene))
+    nearest = np.minimum(plan.scene.link_clearances(samples.q).min(axis=1), plan.scene.self_clearances(samples.q))
+    said = [f"\nclearance {plan.scene.units.measured_length(c)}" if np.isfinite(c) else "" for c in nearest]
 
     def show(frame: int) -> list[Artist]:
         i = min(frame, frames)
         trail.set_data(*coordinates(plan.scene, samples.tip[: i + 1]))
-        clock.set_text(f"{samples.t[i]:.2f} s")
+        clock.set_text(f"{samples.t[i]:.2f} s" + said[i])
         return [trail, *arm.move(samples.link_ends[i]), clock]
 
     path.parent.mkdir(parents=True, exist_ok=True)
