@@ -10,8 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import elbowroom as er
+from elbowroom.cli.length import metres
+from elbowroom.cli.main import app
 from elbowroom.cli.plan_text import in_words, verdict_lines
 
 CELL = """elbowroom: 1
@@ -162,3 +165,31 @@ def test_the_map_and_its_picture_count_the_same(scenes: Path) -> None:
     labels = [text.get_text() for text in legend.get_texts()]
     assert f"two configurations ({space.cases['two']})" in labels
     assert f"one configuration ({space.cases['one']})" in labels
+
+
+def test_a_margin_is_in_the_unit_of_the_scene_or_states_its_own(cell: er.Scene) -> None:
+    for text, asked in (
+        ("5", 0.005),
+        ("5mm", 0.005),
+        ("0.5 cm", 0.005),
+        ("0.005m", 0.005),
+        ("1e-2", 1e-5),
+        ("-1", -0.001),
+    ):
+        assert metres(text, cell.units, setting="margin") == pytest.approx(asked, rel=1e-12)
+    for text in ("", "wide", "5 inch", "mm", "5m5"):
+        with pytest.raises(
+            er.BadSetting, match=f"margin is '{text}'; a length in mm, or one with its unit, such as 5mm"
+        ):
+            metres(text, cell.units, setting="margin")
+
+
+def test_check_takes_a_margin_in_the_unit_of_the_scene(tmp_path: Path) -> None:
+    scene, table = tmp_path / "cell.yaml", tmp_path / "t.csv"
+    scene.write_text(CELL)
+    table.write_text("time_s,q1_rad,q2_rad\n0,0.0,0.0\n5,0.4,0.0\n")
+    told = CliRunner().invoke(app, ["check", str(scene), str(table), "--margin", "50"])
+    assert told.exit_code == 4
+    assert "a clearance of 50 mm is asked for" in told.stdout
+    assert CliRunner().invoke(app, ["check", str(scene), str(table), "--margin", "5mm"]).exit_code == 0
+    assert CliRunner().invoke(app, ["check", "-h"]).exit_code == 0

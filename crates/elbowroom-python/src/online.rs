@@ -174,7 +174,7 @@ impl World {
     }
 
     /// Return what the arm, which is at ``q`` (rad), knows of each obstacle that moves: its place among the scene's
-    /// obstacles, and its course, or where it is seen: shift (m), time (s) and greatest speed (m/s); ``None`` for one that
+    /// obstacles, and its course, or where it is seen: shift (m), time (s) and maximum speed (m/s); ``None`` for one that
     /// it knows nothing of.
     #[pyo3(signature = (*, q))]
     fn known<'py>(
@@ -275,7 +275,7 @@ fn goal(py: Python<'_>, units: Units, scene: &scene::Scene, task: &Task) -> PyRe
         TaskPosture::Down => Posture::ElbowDown,
         TaskPosture::Keep => {
             let message =
-                "an arm that gets out of the way cannot promise to keep its posture; up, down or any";
+                "the replanner cannot keep a posture: evading obstacles may need the other; use up, down or any";
             return Err(errors::setting(py, "posture", message));
         }
     };

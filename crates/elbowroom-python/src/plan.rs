@@ -16,7 +16,7 @@ use crate::verdict::{Asked, Verdict};
 
 /// What a planner found for a task: a motion that is proved to be safe in its scene, and how it came to be.
 ///
-/// Planners alone make plans. One that is unpickled has had its motion judged again; the path it was made from and its lower
+/// Planners alone make plans. One that is unpickled has had its motion verified again; the path it was made from and its lower
 /// bound are as they were kept. Plans are equal if all but their timings is.
 /// Arrays cannot be written to.
 #[pyclass(frozen, eq, module = "elbowroom._core")]

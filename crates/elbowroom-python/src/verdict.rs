@@ -17,7 +17,7 @@ use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
 
 /// What the verifier says of a motion. ``safe`` is a proof; ``bool(verdict)`` is the same.
 ///
-/// The verifier alone makes verdicts. One that is unpickled has been made anew: the motion is judged again.
+/// The verifier alone makes verdicts. One that is unpickled has been made anew: the motion is verified again.
 #[pyclass(frozen, eq, module = "elbowroom._core")]
 pub(crate) struct Verdict {
     found: Found,
@@ -106,7 +106,7 @@ impl Verdict {
         self.found.least_clearance.clone()
     }
 
-    /// How near each joint comes to its stops, base first; ``None`` for a joint without stops.
+    /// How near each joint comes to its limits, base first; ``None`` for a joint without limits.
     #[getter]
     fn joint_margins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.found.joint_margins.iter().cloned())
@@ -161,7 +161,7 @@ impl Verdict {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let Some(asked) = &self.asked else {
-            let message = "cannot pickle a replanner's verdict: what was known of the obstacles is not kept to judge again";
+            let message = "cannot pickle a replanner's verdict: what was known of the obstacles is not kept, so it cannot be verified again";
             return Err(PyTypeError::new_err(message));
         };
         let again = py.import("elbowroom._core")?.getattr("verdict_again")?;
@@ -171,7 +171,7 @@ impl Verdict {
     }
 }
 
-/// Return the verdict on ``motion`` in ``scene``, judged again; ``safe`` is what an earlier one said.
+/// Return the verdict on ``motion`` in ``scene``, verified again; ``safe`` is what an earlier one said.
 ///
 /// Raises:
 ///     Refuted: It was said to be safe, and is not.

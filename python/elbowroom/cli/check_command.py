@@ -12,19 +12,22 @@ from elbowroom.cli.failure import UNSAFE, reported
 
 def check_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
-    file: Annotated[Path, typer.Argument(help="Trajectory: our CSV, or a JointTrajectory as JSON or YAML.")],
+    file: Annotated[
+        Path, typer.Argument(help="Trajectory: CSV as plan writes it, or a ROS 2 JointTrajectory as JSON or YAML.")
+    ],
     joints: Annotated[
         str | None, typer.Option(help="Names of the joints in the file, base first: FIRST,SECOND,...")
     ] = None,
-    margin: Annotated[float, typer.Option(help="Clearance to keep (m).")] = 0.0,
+    margin: Annotated[str, typer.Option(help="Clearance to keep, in the unit of the scene or as 5mm.")] = "0",
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Judge anybody's trajectory: exit code 0 only if it is proved to be safe, else 4."""
+    """Verify a trajectory: exit code 0 only if it is proved to be safe, otherwise 4."""
     with reported():
         import json
 
         from elbowroom.check import check_file
+        from elbowroom.cli.length import metres
         from elbowroom.cli.plan_text import verdict_lines
         from elbowroom.errors import BadSetting
         from elbowroom.scene import Scene
@@ -34,7 +37,8 @@ def check_command(
         number = len(loaded.arm.joints)
         if names is not None and len(names) != number:
             raise BadSetting(f"--joints names {len(names)}; the arm of {scene} has {number} joints", setting="joints")
-        result = check_file(loaded, file, joints=names, margin=margin, timeout=timeout)
+        keep = metres(margin, loaded.units, setting="margin")
+        result = check_file(loaded, file, joints=names, margin=keep, timeout=timeout)
         if as_json:
             typer.echo(json.dumps({"curve": result.curve, **result.verdict.as_dict()}, allow_nan=False))
         else:

@@ -1,4 +1,4 @@
-"""What was followed, in words."""
+"""A simulated episode in words."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ def in_words(followed: Followed) -> str:
         f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
     if late := found["update_s"]["longer_than_a_step"]:
-        lines.append(f"{late} updates took longer than a step")
+        lines.append(f"{late} updates took longer than the period")
     if doubtful := found["updates_not_safe"]:
-        lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")
-    lines.append("what was followed, among the obstacles as they really moved:")
+        lines.append(f"{doubtful} updates found no motion that is proved safe by what was known")
+    lines.append("the executed motion, among the obstacles as they really moved:")
     return "\n".join([*lines, *verdict_lines(followed.check.verdict, followed.scene.units)])
 
 

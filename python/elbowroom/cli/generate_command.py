@@ -12,14 +12,12 @@ from elbowroom.cli.failure import reported
 
 def generate_command(
     out: Annotated[Path, typer.Option(help="Folder for the scene files.")],
-    count: Annotated[int, typer.Option(min=1, help="How many scenes.")] = 50,
-    seed: Annotated[int, typer.Option(min=0, help="Same seed, same scenes.")] = 0,
-    links: Annotated[
-        int, typer.Option(min=2, help="How many links the arm has; with more than 2 it must not touch itself.")
-    ] = 2,
+    count: Annotated[int, typer.Option(min=1, help="Number of scenes.")] = 50,
+    seed: Annotated[int, typer.Option(min=0, help="Random seed.")] = 0,
+    links: Annotated[int, typer.Option(min=2, help="Number of links; arms of more than 2 avoid self-collision.")] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Draw random scenes around the paper's arm, or one of more links, to compare planners on."""
+    """Generate random scenes around the paper's arm, or one of more links, to compare planners on."""
     with reported():
         import json
 

@@ -12,11 +12,11 @@ from elbowroom.cli.failure import reported
 
 def paper_command(
     out: Annotated[Path, typer.Option(help="Folder for the pictures and report.md.")] = Path("out/paper"),
-    seed: Annotated[int, typer.Option(help="Seed of the runs that are drawn.")] = 0,
-    seeds: Annotated[int, typer.Option(min=1, help="How many seeds the counts are over.")] = 100,
+    seed: Annotated[int, typer.Option(help="Random seed of the runs in the pictures.")] = 0,
+    seeds: Annotated[int, typer.Option(min=1, help="Number of seeds for the statistics.")] = 100,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Redo the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""
+    """Reproduce the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""
     with reported():
         import json
 

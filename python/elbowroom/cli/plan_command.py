@@ -19,24 +19,24 @@ if TYPE_CHECKING:
 
 def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
-    task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
+    task: Annotated[str | None, typer.Option(help="Task of the scene; may be omitted if it has only one.")] = None,
     planner: Annotated[
         str | None,
         typer.Option(
             help=f"{', '.join(OWN)}, or a plug-in; options as NAME:OPTION=VALUE:OPTION=VALUE. "
-            "Left out: dstar-pso for two links, guided-rrt-connect for more."
+            "Default: dstar-pso for two links, guided-rrt-connect for more."
         ),
     ] = None,
-    objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
-    seed: Annotated[int, typer.Option(help="Seed of the swarm.")] = 0,
+    objective: Annotated[str, typer.Option(help=f"Quantity to minimise: {LISTED}.")] = "tip",
+    seed: Annotated[int, typer.Option(help="Random seed.")] = 0,
     timeout: Annotated[float | None, typer.Option(help="Give up after so many seconds.")] = None,
-    duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
+    duration: Annotated[str, typer.Option(help="Duration of the motion (s), or fastest.")] = "fastest",
     gap: Annotated[
         float | None,
-        typer.Option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %)."),
+        typer.Option(help="With optimal: refine until the proven optimality gap is below this (0.01: 1 %)."),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
-    animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
+    animate: Annotated[bool, typer.Option("--animate", help="With --out: also write an animation (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Plan a motion that is proved to be safe."""

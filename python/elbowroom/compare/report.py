@@ -100,7 +100,7 @@ READING = """## How to read it
 - *Not applicable*: the planner does not serve this arm, task or setting. Such runs are no failures, and in no test.
 - Medians are over the runs with success, in brackets their 95 % bootstrap interval; a value without brackets is the
   same in every run. The best median of what the objective asks for is bold.
-- *Time* is from the question to the judged motion, on one core; it differs from machine to machine.
+- *Time* is from the question to the verified motion, on one core; it differs from machine to machine.
 - Tests rank runs without success behind all others. On a task: Mann-Whitney over the seeds. Over all tasks: Wilcoxon's
   signed-rank test over the medians of the tasks that both planners serve. p-values are two-sided; *Holm* is adjusted
   for all pairs of the table.

@@ -124,12 +124,12 @@ class Row(Problem, frozen=True, kw_only=True, forbid_unknown_fields=True):
         joint_travel_rad: Length of the curve in the space of the joints.
         duration_s: How long the motion takes.
         least_clearance_m: The nearest that a link comes to an obstacle, or to a link it has to keep clear of.
-        evaluations: Candidates that the planner judged, where it counts them.
+        evaluations: Candidates that the planner evaluated, where it counts them.
         lower_bound: No motion costs less.
         gap: How far ``cost`` may be above the best, as a share of it.
         failure: A key of ``FAILURES``.
         message: The failure in words.
-        time_s: From the question to the judged motion, or to the failure.
+        time_s: From the question to the verified motion, or to the failure.
         stages_s: The same by stage, as far as the planner tells.
         convergence: Evaluations made and the best cost by then.
     """

@@ -54,7 +54,7 @@ WALL = 1.2
 ARC = math.radians(5.0)
 """Angle from one corner to the next where corners stand for something round."""
 
-WIDEST_LABEL = 24
+WIDEST_LABEL = 26
 """Letters in a line of a legend."""
 
 LONGEST_NAME = 12

@@ -50,7 +50,7 @@ impl Told for JointLimitsError {
     fn told(&self, units: Units) -> String {
         match *self {
             Self::OutsideRange { min, max } => format!(
-                "limits are {} to {}, they must lie within a thousand turns of 0",
+                "limits are {} to {}, they must lie within a thousand revolutions of 0",
                 units.stated_angle(min),
                 units.stated_angle(max)
             ),
@@ -85,7 +85,7 @@ impl JointLimits {
         }
     }
 
-    /// How far the joint turns from `from` to `to` (rad): the short way round if it is continuous, in (-π, π], else the
+    /// How far the joint turns from `from` to `to` (rad): along the shorter direction if it is continuous, in (-π, π], else the
     /// plain difference.
     pub fn difference(&self, from: f64, to: f64) -> f64 {
         match self {
@@ -94,7 +94,7 @@ impl JointLimits {
         }
     }
 
-    /// `to`, counted on by whole turns to where it is nearest to `from` if the joint is continuous (rad).
+    /// `to`, counted on by whole revolutions to where it is nearest to `from` if the joint is continuous (rad).
     pub fn nearest_turn(&self, from: f64, to: f64) -> f64 {
         match self {
             Self::Continuous => from + angle_difference(from, to),
@@ -112,7 +112,7 @@ impl JointLimits {
 
     /// Every place where the joint may stand to point in direction `angle` (rad), lowest first.
     ///
-    /// A continuous joint has one, in (-π, π]; one with stops has one for each turn that fits between
+    /// A continuous joint has one, in (-π, π]; one with limits has one for each turn that fits between
     /// them. An angle beyond a stop by no more than rounding is put on the stop.
     pub fn places(&self, angle: f64) -> impl Iterator<Item = f64> + use<> {
         let (min, max) = match *self {
@@ -175,7 +175,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// One that turns all the way round, with no limit on its motion stated.
+    /// One that turns without limits, with no limit on its motion stated.
     pub const CONTINUOUS: Self = Self {
         limits: JointLimits::Continuous,
         motion: MotionLimits { velocity: None, acceleration: None, jerk: None },

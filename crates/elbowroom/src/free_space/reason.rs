@@ -62,7 +62,7 @@ pub enum Reason {
     },
 }
 
-/// What forbids the configuration `q` (rad): another number of joints than the arm has, else the first joint beyond its stops, else the deepest contact with an obstacle,
+/// What forbids the configuration `q` (rad): another number of joints than the arm has, else the first joint beyond its limits, else the deepest contact with an obstacle,
 /// else the deepest of links with each other.
 pub fn reason_against(scene: &Scene, q: &[f64]) -> Option<Reason> {
     let joints = scene.arm().links();

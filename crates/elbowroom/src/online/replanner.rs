@@ -45,7 +45,7 @@ impl Told for ReplanError {
 ///
 /// What it has the arm run always ends at rest, and is verified in space and time from the arm's present position,
 /// velocity and acceleration: until the arm has come to rest among all obstacles that are known of, and for eight seconds
-/// more among those whose course is known. Obstacles whose course is not known may be anywhere that their greatest speed
+/// more among those whose course is known. Obstacles whose course is not known may be anywhere that their maximum speed
 /// allows.
 pub struct Replanner {
     known: KnownScene,

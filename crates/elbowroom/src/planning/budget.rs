@@ -2,7 +2,7 @@
 
 use super::{Effort, Monitor, PlanError};
 
-/// Evaluations between two looks at the monitor: a few milliseconds.
+/// Evaluations between two samples at the monitor: a few milliseconds.
 const EVALUATIONS_PER_LOOK: usize = 200;
 
 /// Why a search ends before it has found.

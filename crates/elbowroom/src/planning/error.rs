@@ -202,7 +202,7 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// Why `planner`, for two links among obstacles that stand still, does not serve a scene.
+    /// Why `planner`, for two links among static obstacles, does not serve a scene.
     pub(crate) fn not_two_link(planner: &str, error: TwoLinkError) -> Self {
         match error {
             TwoLinkError::Links { found } => {

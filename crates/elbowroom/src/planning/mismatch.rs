@@ -118,7 +118,7 @@ pub fn mismatch(scene: &Scene, task: &Task, motion: &Motion, posture_changes: &[
     Some(Mismatch::GoalPosture { found, wanted })
 }
 
-/// How far the arm at `q` is from `place`, and in what unit; whole turns of continuous joints aside.
+/// How far the arm at `q` is from `place`, and in what unit; whole revolutions of continuous joints aside.
 fn away(arm: &Arm, place: &Place, q: &[f64]) -> (f64, &'static str) {
     match place {
         Place::Tip(tip) => (arm.tip(q).distance(*tip), "m"),

@@ -13,7 +13,7 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// One without a name that stands still.
+    /// One without a name that is static.
     pub fn still(shape: Shape) -> Self {
         Self { name: None, shape, motion: None }
     }

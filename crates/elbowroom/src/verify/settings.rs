@@ -8,7 +8,7 @@ pub const FLOOR: f64 = 1e-9;
 pub struct VerifySettings {
     /// Clearance that a safe motion has more of (m); below [`FLOOR`] it counts as [`FLOOR`].
     pub margin: f64,
-    /// Configurations looked at per piece and pair of a link and what it must not touch before the pair is left undecided;
+    /// Configurations examined per piece and pair of a link and what it must not touch before the pair is left undecided;
     /// half of them may go into the accuracy of the least clearance.
     pub evaluations: u32,
     /// What must not jump where pieces meet, all before it included. Jumps beyond it count only against joints with

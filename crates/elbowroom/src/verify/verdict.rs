@@ -249,7 +249,7 @@ pub enum Violation {
     /// The verifier was told to stop before it was done.
     #[error("the verifier was stopped before it was done with the motion")]
     Stopped {
-        /// When the first piece begins that was not looked at in full.
+        /// When the first piece begins that was not examined in full.
         time: f64,
     },
 }

@@ -162,7 +162,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -1e9, max: 150}",
-            "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand turns of 0",
+            "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand revolutions of 0",
         ),
         (
             "velocity: 90",
@@ -288,7 +288,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -150, max: 1e9}",
-            "s.yaml:7:24: arm.joints[1].max: found 1e9; allowed: within a thousand turns of 0",
+            "s.yaml:7:24: arm.joints[1].max: found 1e9; allowed: within a thousand revolutions of 0",
         ),
         (
             "base: [1, -2]",

@@ -77,7 +77,7 @@ impl<'a> Trees<'a> {
         Self { ends, tips, guides: [to_goals, to_starts] }
     }
 
-    /// A path from a start to a goal, whose straight turns are certified.
+    /// A path from a start to a goal, whose straight joint motions are certified.
     ///
     /// # Errors
     /// [`Exhausted`]
@@ -126,7 +126,7 @@ impl<'a> Trees<'a> {
     }
 }
 
-/// `to_meeting`, and from there back along `from_goal`, counted on by the whole turns between both.
+/// `to_meeting`, and from there back along `from_goal`, counted on by the whole revolutions between both.
 fn joined(mut to_meeting: Vec<Configuration>, mut from_goal: Vec<Configuration>) -> Vec<Configuration> {
     if let (Some(here), Some(there)) = (to_meeting.last(), from_goal.last()) {
         let whole = |(a, b): (&f64, &f64)| ((a - b) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
@@ -224,7 +224,7 @@ impl Tree {
         if local.connects(&from, &to)? { self.insert(local, to, Some(node)) } else { Ok(None) }
     }
 
-    /// The configuration nearest to `q`, and `q` counted on by whole turns to where it is nearest to that.
+    /// The configuration nearest to `q`, and `q` counted on by whole revolutions to where it is nearest to that.
     fn nearest(&self, arm: &Arm, q: &[f64]) -> Option<(usize, Configuration)> {
         let by_distance = |a: &usize, b: &usize| {
             arm.distance(&self.nodes[*a].q, q).total_cmp(&arm.distance(&self.nodes[*b].q, q))

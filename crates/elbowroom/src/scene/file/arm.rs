@@ -91,7 +91,7 @@ fn range(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> R
         }
         JointLimitsError::OutsideRange { .. } => {
             let far = if JointLimits::range(min_angle, min_angle).is_err() { min } else { max };
-            far.out_of_range("within a thousand turns of 0")
+            far.out_of_range("within a thousand revolutions of 0")
         }
     })
 }
