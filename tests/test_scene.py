@@ -96,6 +96,10 @@ def test_a_file_that_is_wrong_is_refused_with_its_place(old: str, new: str, line
 def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     with pytest.raises(er.SceneError, match="cannot be read"):
         er.Scene.load(tmp_path / "missing.yaml")
+    with pytest.raises(er.SceneError, match="not from standard input"):
+        er.Scene.load("-")
+    with pytest.raises(er.SceneError, match="the scene comes first, then the trajectory"):
+        er.Scene.load("trajectory.csv")
     binary = tmp_path / "binary.yaml"
     binary.write_bytes(b"elbowroom: \xff\xfe")
     with pytest.raises(er.SceneError, match="UTF-8"):

@@ -59,6 +59,10 @@ def text_of(path: str | Path) -> str:
     def refused(what: str) -> SceneError:
         return SceneError(f"{path}: {what}", key="", file=str(path))
 
+    if str(path) == "-":
+        raise refused("a scene is read from a file, not from standard input")
+    if Path(path).suffix == ".csv":
+        raise refused("this is a table, not a scene; the scene comes first, then the trajectory")
     try:
         with Path(path).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)

@@ -274,8 +274,7 @@ fn goal(py: Python<'_>, units: Units, scene: &scene::Scene, task: &Task) -> PyRe
         TaskPosture::Up => Posture::ElbowUp,
         TaskPosture::Down => Posture::ElbowDown,
         TaskPosture::Keep => {
-            let message =
-                "the replanner cannot keep a posture: evading obstacles may need the other; use up, down or any";
+            let message = "the replanner cannot keep a posture: evading obstacles may need the other; use up, down or any";
             return Err(errors::setting(py, "posture", message));
         }
     };

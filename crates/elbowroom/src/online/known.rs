@@ -18,7 +18,7 @@ pub struct KnownMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum KnownError {
-    /// The scene has no such obstacle, or has it stand still.
+    /// The scene has no such obstacle, or it is static there.
     #[error("obstacles[{obstacle}] does not move in this scene")]
     StandsStill {
         /// Its number, from 0.

@@ -154,7 +154,7 @@ impl Roadmap {
         Ok(self.obstacles_moved(before.obstacles()))
     }
 
-    /// The same for the obstacles that are there, put elsewhere to stand still.
+    /// The same for the obstacles that are there, put elsewhere as static ones.
     pub(super) fn place_obstacles(&mut self, mut obstacles: Vec<Obstacle>) -> Updated {
         let places = self.scene.obstacles_mut().iter_mut().zip(&mut obstacles);
         places.for_each(|(before, now)| std::mem::swap(before, now));

@@ -131,7 +131,7 @@ mod tests {
     const ROOM: f64 = 0.01;
     const HORIZON: f64 = 20.0;
     const LATTICE: Lattice = Lattice { step: 0.4, time: 0.5 };
-    /// Between two looks of the judge (s).
+    /// Between two samples of the check (s).
     const TICK: f64 = 0.025;
     /// No disc gets farther in a tick (m).
     const SLACK: f64 = 0.012;

@@ -1,4 +1,4 @@
-//! A swarm over waypoints whose first particles are shaken where the straight way is bad, in the style of NSC-PSO.
+//! A swarm over waypoints whose first particles are perturbed where the straight path is bad, in the style of NSC-PSO.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -10,13 +10,13 @@ use crate::swarm::{Neighbourhood, SwarmSettings};
 /// Where the first particles are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Initialisation {
-    /// On the straight way, shaken where its normalised step cost is great.
+    /// On the straight path, perturbed where its normalised step cost is great.
     StepCost,
     /// Anywhere: the ablation.
     Uniform,
 }
 
-/// `nsc-pso`: a swarm whose particles are `waypoints` configurations, joined by straight moves, shaken at first where the straight
+/// `nsc-pso`: a swarm whose particles are `waypoints` configurations, joined by straight moves, perturbed at first where the straight
 /// way is bad.
 ///
 /// A step's cost is how deep in contact the arm is there times the way of its points; divided by the greatest it tells how
@@ -95,7 +95,7 @@ impl Planner for NscPsoPlanner {
         let first = |choice: &EndpointChoice, objective: &PathObjective<'_>, rng: &mut ChaCha8Rng| match self
             .initialisation
         {
-            Initialisation::StepCost => shaken(choice, objective, self.waypoints, count, rng),
+            Initialisation::StepCost => perturbed(choice, objective, self.waypoints, count, rng),
             Initialisation::Uniform => Vec::new(),
         };
         let (smoothing, joints) = (Smoothing::new(self.waypoints), problem.scene.arm().links());
@@ -104,8 +104,8 @@ impl Planner for NscPsoPlanner {
     }
 }
 
-/// Particles on straight ways, shaken where these are in contact.
-fn shaken(
+/// Particles on straight paths, perturbed where these are in contact.
+fn perturbed(
     choice: &EndpointChoice,
     path_objective: &PathObjective<'_>,
     waypoints: usize,

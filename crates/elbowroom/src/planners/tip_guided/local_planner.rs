@@ -98,7 +98,7 @@ impl<'a> LocalPlanner<'a> {
     }
 
     /// `q` with every joint moved by up to `most` (rad), evenly drawn, and put within its limits.
-    pub(in crate::planners) fn shaken(&mut self, q: &[f64], most: f64) -> Configuration {
+    pub(in crate::planners) fn perturbed(&mut self, q: &[f64], most: f64) -> Configuration {
         let moved = q.iter().map(|angle| angle + most * (2.0 * unit(&mut self.rng) - 1.0)).collect();
         self.scene.arm().clamped(moved)
     }
