@@ -2,6 +2,10 @@
 PYTHON ?= python3.11
 BIN := .venv/bin
 
+# pip tells only what went wrong, also where maturin calls it.
+export PIP_QUIET := 1
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+
 .PHONY: demo test campaign setup extras deny mutants bench bench-core tables table2 ompl clean
 
 demo: setup
@@ -41,10 +45,10 @@ campaign:
 # A peer that does not install is a row that says so. OMPL in C++ takes part where libompl-dev and cmake are installed.
 bench:
 	@test -x .venv-bench/bin/python || $(PYTHON) -m venv .venv-bench
-	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	@.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check .
+	@.venv-bench/bin/python -m pip install --upgrade "pip>=25.1"
+	@.venv-bench/bin/python -m pip install .
 	@for peer in $$(.venv-bench/bin/python -m bench.group bench); do \
-		.venv-bench/bin/python -m pip install --quiet --disable-pip-version-check "$$peer" || echo "$$peer does not install"; \
+		.venv-bench/bin/python -m pip install "$$peer" || echo "$$peer does not install"; \
 	done
 	cargo build --release --quiet -p elbowroom --example measure
 	.venv-bench/bin/python -m bench
@@ -56,8 +60,8 @@ bench-core:
 # Compares with OMPL (docs/ompl.md) in an environment of its own; rewrites the tables of that page and its picture.
 ompl:
 	@test -x .venv-ompl/bin/python || $(PYTHON) -m venv .venv-ompl
-	@.venv-ompl/bin/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
-	@.venv-ompl/bin/python -m pip install --quiet --disable-pip-version-check . ompl==2.0.1
+	@.venv-ompl/bin/python -m pip install --upgrade "pip>=25.1"
+	@.venv-ompl/bin/python -m pip install . ompl==2.0.1
 	.venv-ompl/bin/python bench/ompl_safety.py --worlds 100 --seed 0 --out docs/ompl.md
 	.venv-ompl/bin/python bench/ompl_picture.py --out docs/images/ompl_contact.png
 
@@ -76,7 +80,7 @@ mutants: setup
 setup: .venv/installed
 	@$(BIN)/maturin develop --release --quiet --skip-install
 
-PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
+PIP := $(BIN)/python -m pip install
 
 # Asks the network only where the list of what is needed changed, or the clone is new.
 .venv/installed: pyproject.toml Makefile

@@ -65,9 +65,9 @@ def main() -> None:
     text = [
         "# What the swarm gains",
         "",
-        "D* alone gives one shortest grid path. The swarm draws many as short, or nearly (within 1 %), and the",
-        "planner makes verified motions of the eight that promise most, and of D*'s own, and takes the one the arm",
-        "pays least for; among equals the one with the most clearance. Costs are those of the motion, smoothed and",
+        "D* gives one shortest grid path. The swarm samples many as short, or nearly (within 1 %), and the",
+        "planner makes verified motions of the eight most promising, and of D*'s own, and takes the one whose motion",
+        "costs least; among equals the one with the most clearance. Costs are those of the motion, smoothed and",
         f"timed. Made by `make tables`: {options.seeds} seeds, default settings; limits a scene does not state are",
         "assumed.",
         "",

@@ -8,6 +8,8 @@ from typing import Any
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from bench.entries import Comparison, Section
 from bench.table import number
@@ -67,6 +69,18 @@ def ratios(sections: Sequence[Section]) -> Figure:
     )
     axes.axvline(1, color="black", linewidth=0.8)
     axes.margins(x=0.12)
+    axes.legend(
+        handles=[
+            Patch(color=THEIRS, label="a peer, slower"),
+            Patch(color=WORSE, label="a peer, faster"),
+            Patch(color=OURS, label="elbowroom in another way"),
+        ],
+        loc="upper center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=3,
+        frameon=False,
+    )
+    axes.set_ylim(len(bars) - 0.4, -2.4)
     return figure
 
 
@@ -87,9 +101,24 @@ def paths(points: Sequence[Mapping[str, Any]]) -> Figure:
             else:
                 axes.scatter(latest, y, s=22, marker="x", color=WORSE, zorder=2)
     axes.set(xscale="log", yticks=range(len(planners)), yticklabels=planners, ylim=(len(planners) - 0.5, -0.5))
-    axes.set_xlabel("time to a safe path within 1 % (ms); a dot a task, its area the share of runs; x: none")
+    axes.set_xlabel("time to a safe path within 1 % of the best known length (ms)")
+    axes.legend(
+        handles=[
+            _marker("o", OURS, "elbowroom, a task (area: share of runs)"),
+            _marker("o", THEIRS, "a peer, a task"),
+            _marker("x", WORSE, "no run came within 1 %"),
+        ],
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=3,
+        frameon=False,
+    )
     axes.grid(axis="x", linewidth=0.3)
     return figure
+
+
+def _marker(marker: str, color: str, label: str) -> Line2D:
+    return Line2D([], [], color=color, marker=marker, linestyle="none", label=label)
 
 
 def sizes(points: Sequence[Mapping[str, Any]]) -> Figure:

@@ -80,6 +80,8 @@ def test_pictures_are_drawn(tmp_path: Path) -> None:
     paths = [{"who": who, "case": "a", "ms": ms, "share": 0.5} for who, ms in (("elbowroom", 3.0), ("peer", None))]
     more = Section("sizes", "Sizes", "", plots={"sizes": sizes, "paths": paths})
     plots.draw([SECTION, more], tmp_path)
+    for figure in (plots.ratios([SECTION]), plots.paths(paths)):
+        assert figure.axes[0].get_legend() is not None
     assert sorted(file.name for file in tmp_path.iterdir()) == [
         "benchmarks_paths.png",
         "benchmarks_ratios.png",

@@ -80,7 +80,7 @@ def test_what_is_before_the_first_row_is_not_judged(cell: er.Scene, written: Wri
         [unknown] = late.verdict.violations
         assert not late
         assert (unknown.kind, unknown.value) == ("not_judged", 2.0)
-        assert unknown.message == "how the arm gets to the first row in the 2 s before it was not judged"
+        assert unknown.message == "how the arm gets to the first row in the 2.000 s before it was not judged"
         assert pickle.loads(pickle.dumps(late)) == late
     for judged in (er.check(cell, start=[-0.5, 0.4], **rows), er.check_file(cell, file, start=[-0.5, 0.4])):
         assert judged.safe

@@ -11,7 +11,7 @@ from elbowroom.own_planners import OWN
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", "from elbowroom.cli import main; main()", *map(str, arguments)]
+    command = [sys.executable, "-m", "elbowroom", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 

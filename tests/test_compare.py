@@ -78,7 +78,9 @@ def test_a_motion_that_does_another_task_misses(standin: er.Scene) -> None:
     assert mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) is None
     asked = er.Task(start=(0.4, 0.1), goal=er.Configuration((float(end[0]), float(end[1]) + 0.01)))
     scene = er.Scene(arm=standin.arm, grid=standin.grid, obstacles=standin.obstacles, tasks={"first": asked})
-    assert mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) == "the motion is 0.01 rad from the goal"
+    assert (
+        mismatch(scene, "first", plan.motion, plan.verdict.posture_changes) == "the motion is 0.0100 rad from the goal"
+    )
 
 
 def test_straight_turns_keep_the_limits_and_are_as_fast_as_they_allow(standin: er.Scene) -> None:

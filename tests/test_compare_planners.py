@@ -219,7 +219,7 @@ def test_what_becomes_of_arms_of_many_links(tmp_path: Path) -> None:
     assert good.cost == good.joint_travel_rad == pytest.approx(math.radians(math.hypot(90, 60, 10, 20)), rel=1e-9)
     assert good.least_clearance_m is not None
     elsewhere = once("direct:short=0.01", scene, task="go")
-    assert (elsewhere.failure, elsewhere.message) == ("wrong_end", "the motion is 0.01 rad from the goal")
+    assert (elsewhere.failure, elsewhere.message) == ("wrong_end", "the motion is 0.573 deg from the goal")
     folded = once("direct", scene, task="fold")
     assert (folded.failure, folded.found) == ("unsafe", True)
     assert "touches link" in (folded.message or "")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec import structs
 from msgspec.structs import fields
 from typer.testing import CliRunner
 
@@ -58,7 +59,7 @@ def test_the_summary_counts() -> None:
     summary = summarised(rows, ["y", "x"])
     first, second = summary.tasks
     assert [cell.planner for cell in first.cells] == ["y", "x"]
-    assert [cell.success.value for cell in first.cells] == [0.5, 0.75]
+    assert [cell.success.value for cell in first.cells if cell.success] == [0.5, 0.75]
     assert [cell.unsafe for cell in first.cells] == [2, 1]
     medians = [cell.medians["tip_length_m"] for cell in first.cells]
     assert [interval.value for interval in medians if interval] == pytest.approx([200.0, 200.0])
@@ -69,12 +70,54 @@ def test_the_summary_counts() -> None:
     assert cost.delta == pytest.approx(0.25)
     assert cost.a12 == pytest.approx(0.625)
     y, x = summary.overall
+    assert x.success
+    assert y.success
     assert (x.success.value, y.success.value) == (0.8, 0.4)
     assert (x.ratios, x.best_on, y.ratios, y.best_on) == ([1.0, 1.0], 2, [1.0], 1)
     # Over the tasks, medians with failures behind: y inf, inf against x 2.5, 4.
     over = next(pair for pair in summary.pairs if pair.metric == "cost")
     assert (over.less, over.equal, over.greater, over.p) == (0, 0, 2, 0.5)
     assert summarised(rows[:8], ["x", "y"]).pairs == []
+
+
+def refused(planner: str, seed: int, *, task: str = "a") -> Row:
+    return structs.replace(
+        made(planner, seed, None, task=task), found=False, safe=None, failure="refused", message="for 2 links"
+    )
+
+
+def test_a_planner_that_does_not_serve_an_arm_is_not_applicable(tmp_path: Path) -> None:
+    rows = [made("x", s, 1.0 + s, task=task) for task in "abc" for s in range(3)]
+    rows += [refused("y", s, task=task) for task in "ab" for s in range(3)]
+    rows += [made("y", s, 0.5, task="c") for s in range(3)]
+    rows += [refused("z", s, task=task) for task in "abc" for s in range(3)]
+    summary = summarised(rows, ["x", "y", "z"])
+    first, _, third = summary.tasks
+    assert [cell.success is None for cell in first.cells] == [False, True, True]
+    assert first.pairs == []
+    assert [(pair.first, pair.second) for pair in third.pairs] == [("x", "y"), ("x", "y")]
+    x, y, z = summary.overall
+    assert y.success
+    assert (y.success.value, y.tasks, y.best_on, y.ratios) == (1.0, 1, 1, [1.0])
+    assert (z.success, z.tasks, x.tasks) == (None, 0, 3)
+    # Over the tasks that both serve: one.
+    assert [(pair.first, pair.second, pair.greater) for pair in summary.pairs if pair.metric == "cost"] == [
+        ("x", "y", 1)
+    ]
+    report, *_ = write_report(rows, tmp_path, planners=["x", "y", "z"], command="c")
+    text = report.read_text()
+    assert "| `z` | not applicable | - |" in text
+    assert "Not applicable, and in no count or test:\n\n- `y`: for 2 links\n- `z`: for 2 links" in text
+    assert "0 of 3" not in text
+    # A task that nobody serves has no picture.
+    write_report([refused("x", 0), refused("y", 0)], tmp_path / "none", planners=["x", "y"], command="c")
+
+
+def test_compare_counts_what_does_not_apply_apart(scenes: Path, tmp_path: Path) -> None:
+    call = ("compare", scenes / "three-links.yaml", "--seeds", "1", "--planners", "dstar,optimal", "--out", tmp_path)
+    told = json.loads(shell(*call, "--json").stdout)
+    assert (told["runs"], told["success"], told["not_applicable"]) == (4, 0, 4)
+    assert "4 not applicable" in shell(*call).stdout
 
 
 def test_many_tasks_have_a_line_each(tmp_path: Path) -> None:

@@ -174,7 +174,7 @@ def test_bad_input_is_one_clear_line(scenes: Path, arguments: list[str], words: 
 def test_obstacles_that_stand_still_are_followed_too(standin: er.Scene) -> None:
     followed = follow(standin, task="first")
     assert followed.outcome == "reached"
-    assert list(clearances(followed)) == ["standing obstacles"]
+    assert list(clearances(followed)) == ["static obstacles"]
     empty = follow(standin.replace(obstacles=()), task="first")
     assert empty.outcome == "reached"
     assert clearances(empty) == {}

@@ -31,8 +31,8 @@ def test_limits_that_are_not_stated_are_said_not_to_be_judged(standin: er.Scene)
     assert said[-2] == "  judged: contact with obstacles, joint limits"
     # 0.1 rad in a second as a quintic from rest to rest: 15/8, 10/sqrt(3) and 60 times that.
     assert said[-1] == (
-        "  NOT judged, as the scene states no limits: velocity (up to 10.74 deg/s), acceleration (up to 33.08 deg/s²), "
-        "jerk (up to 343.8 deg/s³)"
+        "  NOT judged, as the scene states no limits: velocity (up to 0.188 rad/s), acceleration (up to 0.577 rad/s²), "
+        "jerk (up to 6.00 rad/s³)"
     )
     one = said_of(limited(standin, {"velocity": 3.0, "jerk": 90.0}, {"jerk": 90.0}))
     assert one[-2] == "  judged: contact with obstacles, joint limits, velocity of joint 1, jerk"
@@ -60,21 +60,21 @@ def test_a_late_first_row_is_said_in_the_first_line(standin: er.Scene) -> None:
     late = er.check(standin, t=[2.0, 4.0], q=[[2.5, 0.0], [2.6, 0.0]])
     first = verdict_lines(late.verdict, standin)[0]
     assert first.startswith(
-        "NOT SAFE: how the arm gets to the first row in the 2 s before it was not judged; say where"
+        "NOT SAFE: how the arm gets to the first row in the 2.000 s before it was not judged; say where"
     )
 
 
 def test_assumed_limits_are_claimed_only_where_they_are_kept(standin: er.Scene) -> None:
     fastest = er.plan(standin, task="first")
     assert {rate for _, rate, _ in fastest.assumed_limits} == {"velocity", "acceleration", "jerk"}
-    assert "planned within what was assumed in place of limits: velocity 90 deg/s" in in_words(fastest)
+    assert "planned within assumed limits, as the scene states none: velocity 1.5708 rad/s" in in_words(fastest)
     hurried = er.plan(standin, task="first", duration=0.5)
     margins = hurried.verdict.motion_margins
     assert min(margin.jerk.largest for margin in margins) > 4.0 * np.pi
     assert hurried.assumed_limits == []
     said = in_words(hurried)
     assert "assumed" not in said
-    assert "NOT judged, as the scene states no limits: velocity (up to 864" in said
+    assert "NOT judged, as the scene states no limits: velocity (up to 15.1 rad/s" in said
     # Some are kept and some are not.
     brisk = er.plan(standin, task="first", duration=0.8 * fastest.motion.duration)
     for joint, rate, value in brisk.assumed_limits:

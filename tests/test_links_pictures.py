@@ -16,7 +16,7 @@ from elbowroom import figures
 from elbowroom.cli.plan_pictures import draw, not_drawn
 from elbowroom.figures.curves import joint_lines
 from elbowroom.figures.links import capsule, link_colours
-from elbowroom.figures.style import CM, LINK_1, LINK_2
+from elbowroom.figures.style import LINK_1, LINK_2
 
 Chain = Callable[..., er.Scene]
 Planned = Callable[[er.Scene], er.Plan]
@@ -64,7 +64,7 @@ def test_stills_are_the_arm_to_scale(chain: Chain, planned: Planned, links: int,
     figure = figures.arm_tracking(plan)
     [axes] = figure.axes
     [lines] = [c for c in axes.collections if isinstance(c, LineCollection)]
-    drawn = np.array(lines.get_segments()).reshape(-1, links, 2, 2) / CM
+    drawn = np.array(lines.get_segments()).reshape(-1, links, 2, 2)
     assert len(drawn) == 25
     np.testing.assert_allclose(np.linalg.norm(drawn[:, :, 1] - drawn[:, :, 0], axis=-1), 0.5 / links, rtol=1e-12)
     np.testing.assert_allclose(drawn[:, 0, 0], [plan.scene.arm.base] * 25)
@@ -106,7 +106,7 @@ def test_limits_that_joints_share_are_drawn_once(chain: Chain, planned: Planned)
     joints = (*scene.arm.joints[:4], fast, *scene.arm.joints[5:])
     figure = figures.joint_curves(planned(scene.replace(arm=scene.arm.replace(joints=joints))))
     labels = [axes.get_legend_handles_labels()[1] for axes in figure.axes]
-    assert labels[0] == [*(f"joint {j}" for j in range(1, 11)), "limit of joints 2 to 10"]
+    assert labels[0] == ["joint 1 (continuous)", *(f"joint {j}" for j in range(2, 11)), "limit of joints 2 to 10"]
     assert labels[1] == [
         "limit of joints 1 to 4 and 6 to 10",
         "limit of joint 5",

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -24,3 +25,8 @@ def test_files_that_the_readme_links_are_there() -> None:
         if not link.startswith("http"):
             assert (README.parent / link).exists(), link
     assert len(links) > 4
+
+
+def test_make_keeps_pip_quiet() -> None:
+    ask = ["make", "--silent", "--eval", "asked: ; @echo $$PIP_QUIET $$PIP_DISABLE_PIP_VERSION_CHECK", "asked"]
+    assert subprocess.run(ask, cwd=README.parent, capture_output=True, text=True).stdout.split() == ["1", "1"]

@@ -129,7 +129,7 @@ def test_no_replanner_for_what_it_cannot_do(scene: er.Scene) -> None:
         er.Replanner(er.Scene.example("three-links"))
     with pytest.raises(er.UnknownTask):
         er.Replanner(scene, task="second")
-    with pytest.raises(er.BadSetting, match="keep its posture"):
+    with pytest.raises(er.BadSetting, match="cannot keep a posture"):
         er.Replanner(scene.replace(tasks={"keep": scene.tasks["first"].replace(posture="keep")}))
     far = scene.replace(tasks={"far": er.Task(start=(0.4, 0.1), goal=(0.9, 0.0))})
     with pytest.raises(er.NotFree) as caught:
@@ -148,9 +148,9 @@ def test_no_replanner_for_what_it_cannot_do(scene: er.Scene) -> None:
 
 def test_planners_leave_what_moves_to_it(scene: er.Scene) -> None:
     for planning, words in (
-        (lambda: er.plan(scene), "the command follow and Replanner serve those that move"),
-        (lambda: er.plan_as_in_paper(scene), "the command follow and Replanner serve those that move"),
-        (lambda: er.free_space(scene), "takes obstacles to stand still; obstacle 'shuttle' moves"),
+        (lambda: er.plan(scene), "use elbowroom follow, or Replanner in Python"),
+        (lambda: er.plan_as_in_paper(scene), "use elbowroom follow, or Replanner in Python"),
+        (lambda: er.free_space(scene), "only for static obstacles; obstacle 3 \\(shuttle\\) moves"),
     ):
         with pytest.raises(er.BadSetting, match=words) as caught:
             planning()

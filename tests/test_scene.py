@@ -96,6 +96,10 @@ def test_a_file_that_is_wrong_is_refused_with_its_place(old: str, new: str, line
 def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
     with pytest.raises(er.SceneError, match="cannot be read"):
         er.Scene.load(tmp_path / "missing.yaml")
+    with pytest.raises(er.SceneError, match="not from standard input"):
+        er.Scene.load("-")
+    with pytest.raises(er.SceneError, match="the scene comes first, then the trajectory"):
+        er.Scene.load("trajectory.csv")
     binary = tmp_path / "binary.yaml"
     binary.write_bytes(b"elbowroom: \xff\xfe")
     with pytest.raises(er.SceneError, match="UTF-8"):
@@ -120,9 +124,9 @@ TURNING = er.Joint(continuous=True)
         (
             lambda: TURNING.replace(jerk=0.0),
             "joint.jerk",
-            "greatest jerk is 0.0, it must be finite and greater than 0: from 1e-6 to 1e12",
+            "limit on jerk is 0.0, it must be finite and greater than 0: from 1e-6 to 1e12",
         ),
-        (lambda: TURNING.replace(velocity=math.nan), "joint.velocity", "NaN, it must be finite"),
+        (lambda: TURNING.replace(velocity=math.nan), "joint.velocity", "limit on velocity is NaN, it must be finite"),
         (lambda: er.Arm(links=(0.1, 0.2, 0.3), joints=(TURNING,) * 2), "arm", "2 joints for 3 links"),
         (lambda: er.Circle(center=(0.0, 0.0), radius=-1.0), "circle", "radius -1 m"),
         (lambda: er.Circle(center=(0.0, 0.0), radius=1.0).shifted((math.nan, 0.0)), "circle", "NaN m"),
@@ -133,7 +137,7 @@ TURNING = er.Joint(continuous=True)
         (lambda: er.ObstacleMotion(chases=True), "motion", "greatest_speed is needed beside chases"),
         (lambda: er.ObstacleMotion(chases=True, greatest_speed=1.0, start=2.0), "motion", "start is for what moves"),
         (lambda: er.ObstacleMotion(velocity=(1.0, 0.0), keep_off=0.1), "motion", "keep_off is for what chases"),
-        (lambda: er.ObstacleMotion(velocity=(1.0, 0.0), greatest_speed=0.5), "motion", "the course goes at 1 m/s"),
+        (lambda: er.ObstacleMotion(velocity=(1.0, 0.0), greatest_speed=0.5), "motion", "moves at up to 1 m/s"),
         (lambda: er.Task(start=(0.0, 0.1), goal=(0.1, 0.0), posture="left"), "task.posture", "'left'; up, down, any"),
     ],
 )

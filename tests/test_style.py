@@ -9,7 +9,7 @@ import pytest
 from matplotlib.patches import Circle, Polygon
 
 import elbowroom as er
-from elbowroom.figures.style import CM, corners_of, plane
+from elbowroom.figures.style import corners_of, plane
 
 
 def distance(point: tuple[float, float], a: tuple[float, float], b: tuple[float, float]) -> float:
@@ -50,11 +50,11 @@ def test_every_shape_is_drawn_as_large_as_it_is(standin: er.Scene) -> None:
     line, wall, corners, circle = axes.patches
     assert isinstance(line, Polygon)
     assert isinstance(circle, Circle)
-    assert line.get_xy()[:2].tolist() == [[-30.0, 10.0], [-10.0, 30.0]]
+    assert line.get_xy()[:2].tolist() == [[-0.3, 0.1], [-0.1, 0.3]]
     assert line.get_linewidth() > 0.0
     assert line.get_edgecolor()[3] == 1.0
     for patch, (x0, y0, x1, y1) in ((wall, (-0.32, 0.08, -0.08, 0.32)), (corners, (0.1, 0.1, 0.3, 0.4))):
         box = patch.get_path().get_extents()
-        assert (box.x0, box.y0, box.x1, box.y1) == pytest.approx([v * CM for v in (x0, y0, x1, y1)], abs=0.01)
+        assert (box.x0, box.y0, box.x1, box.y1) == pytest.approx((x0, y0, x1, y1), abs=1e-4)
         assert patch.get_edgecolor()[3] == 0.0
-    assert circle.radius == pytest.approx(7.0)
+    assert circle.radius == pytest.approx(0.07)

@@ -24,6 +24,7 @@ from elbowroom._core import (
     Scene,
     Segment,
     Task,
+    Units,
     Verdict,
     Violation,
 )
@@ -88,6 +89,7 @@ __all__ = [
     "Task",
     "TimedOut",
     "TrajectoryError",
+    "Units",
     "UnknownTask",
     "Update",
     "Verdict",

@@ -37,13 +37,16 @@ class FreeSpaceMap:
 class FreeSpace:
     """The maps of both postures over the grid points ``x`` (columns) and ``y`` (rows) (m).
 
-    ``cases`` counts the points with ``two``, ``one`` and ``none`` free configurations: the paper's three cases.
+    ``configurations`` says of each point, in shape ``(rows, columns)``, how many free configurations put the tip there:
+    0, 1 or 2; at full stretch both postures are one. ``cases`` counts the points with ``two``, ``one`` and ``none``
+    of them: the paper's three cases.
     """
 
     x: NDArray[np.float64]
     y: NDArray[np.float64]
     elbow_up: FreeSpaceMap
     elbow_down: FreeSpaceMap
+    configurations: NDArray[np.uint8]
     cases: dict[str, int]
 
     @property
@@ -66,5 +69,6 @@ def free_space(scene: Scene, *, timeout: float | None = None) -> FreeSpace:
         y=scene.grid.y[0] + scene.grid.step * np.arange(rows, dtype=np.float64),
         elbow_up=up,
         elbow_down=down,
+        configurations=space.configurations,
         cases=space.cases,
     )

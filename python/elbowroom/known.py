@@ -11,9 +11,9 @@ from elbowroom.scene import ObstacleMotion, Pair, Scene
 
 @dataclass(frozen=True, kw_only=True)
 class Sighting:
-    """An obstacle was seen at ``time`` (s), ``shift`` away from where the scene has it (m); its course is unknown.
+    """An obstacle was seen at ``time`` (s), ``shift`` away from where the scene has it (m); its trajectory is unknown.
 
-    From there it may have gone anywhere at its greatest speed (m/s), that of the scene where none is given.
+    From there it may have gone anywhere at its maximum speed (m/s), that of the scene where none is given.
     """
 
     shift: Pair
@@ -22,11 +22,11 @@ class Sighting:
 
 
 Known = ObstacleMotion | Sighting | None
-"""A course, a sighting, or None: it is not there, as far as anyone knows."""
+"""A known trajectory, an observation, or None: it is not there, as far as anyone knows."""
 
 
 def all_known(scene: Scene, known: Mapping[int | str, Known]) -> list[tuple[int, Known]]:
-    """Return what is known of each obstacle of ``scene`` that moves, by its place among the obstacles.
+    """Return what is known of each obstacle of ``scene`` that moves, by its index among the obstacles.
 
     One left out of ``known`` has the course that the scene gives it.
 

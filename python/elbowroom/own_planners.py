@@ -21,7 +21,7 @@ class OwnKind:
     Attributes:
         name: What it is asked for by.
         options: All its options with their defaults.
-        budget: Which of them limits how many candidates it judges; None if it does not count them.
+        budget: Which of them limits how many candidates it evaluates; None if it does not count them.
         least: The fewest links of an arm that it serves.
         most: The most.
     """

@@ -37,23 +37,23 @@ def plan(
     """Return a plan whose motion is proved to be safe.
 
     The motion exists only because the verifier has accepted its polynomials, whoever planned it. elbowroom's own
-    planners for two links lead the arm along paths over (place, posture): every step is certified free of contact, and
+    planners for two links use paths over (tip position, posture): every step is certified collision-free, and
     the posture changes only through full stretch or fold.
 
     Args:
         scene: Arm and obstacles.
-        task: Which one; may be left out if there is only one.
+        task: Which one; may be omitted if there is only one.
         planner: The name of one of elbowroom's own (``elbowroom.own_planners.OWN``) or of one that is installed as a
             plug-in, or a callable like ``elbowroom.planners.PlannerPlugin``; None for ``dstar-pso`` with two links and
             ``guided-rrt-connect`` with more. Where a callable or plug-in proposes positions, velocities and
             accelerations the motion is taken as it is; else its rows are a path, and the motion along it is
             elbowroom's.
-        options: Those of the planner that shall differ from its defaults, such as ``{"candidates": 100}``.
-        objective: What the choice goes by: ``tip`` travel, ``joint`` travel or ``time``.
-        seed: Of all that is random.
-        duration: How long the motion takes (s); None for as fast as the motion limits allow along the path.
-        gap: For ``optimal``: go on until the cost is no more than this share above the lower bound, or the timeout, or
-            nothing finer is left to try; the plan says what was reached.
+        options: Those of the planner that differ from its defaults, such as ``{"candidates": 100}``.
+        objective: Quantity to minimise: ``tip`` travel, ``joint`` travel or ``time``.
+        seed: Random seed.
+        duration: Of the motion (s); None for as fast as the motion limits allow along the path.
+        gap: For ``optimal``: refine until the proven optimality gap is below this share, or the timeout, or nothing
+            finer is left to try; the plan says what was reached.
         timeout: When to give up (s).
         on_stage: Called with the name of each stage as it begins.
 
@@ -132,7 +132,7 @@ def plan_as_in_paper(
 
     Args:
         scene: Arm and obstacles.
-        task: Which one; may be left out if there is only one.
+        task: Which one; may be omitted if there is only one.
         planner: ``dstar-pso``, the paper's modified lbest swarm, or ``dstar``, the pointers alone.
         seed: Of the swarm and of the choice of via points.
         vias: How many via points are chosen between start and goal.

@@ -1,4 +1,4 @@
-"""Plans by planners written in Python: asked, then judged as all are."""
+"""Plans by planners written in Python: asked, then verified as all are."""
 
 from __future__ import annotations
 

@@ -27,14 +27,14 @@ Option = str | int | float | bool
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Proposal:
-    """A trajectory that a planner proposes, and what it knows of its search; elbowroom's verifier judges it.
+    """A trajectory that a planner proposes, and what it knows of its search; elbowroom's verifier checks it.
 
     Attributes:
         t: Times, ascending, shape ``(n,)`` (s).
-        q: Configurations, shape ``(n, joints)`` (rad); a continuous joint counts on instead of jumping by a turn.
+        q: Configurations, shape ``(n, joints)`` (rad); a continuous joint is unwrapped: no jumps.
         v: Velocities, if known (rad/s): then the curve between rows is cubic, else linear.
         a: Accelerations, if known (rad/s²): then it is quintic.
-        evaluations: How many candidates the planner judged; None if it does not count them.
+        evaluations: How many candidates the planner evaluated; None if it does not count them.
         lower_bound: No motion costs less, in terms of the objective; None where unknown.
         timings: Seconds spent in each stage.
         convergence: Evaluations made, and the best cost by then, each time that fell; None where not recorded.
@@ -86,7 +86,7 @@ class PlannerPlugin(Protocol):
             seed: Same seed, same answer.
             timeout: When to give up (s); ``compare`` ends a planner that is still at it 10 s later.
             budget: How many evaluations it may make, if it counts them; None for its own default.
-            objective: What shall be short: ``tip`` travel, ``joint`` travel or ``time``.
+            objective: Quantity to minimise: ``tip`` travel, ``joint`` travel or ``time``.
 
         Raises:
             NotFound: There is none, as far as the planner can tell.

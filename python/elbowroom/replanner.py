@@ -29,7 +29,7 @@ class Update:
     """What an update came to.
 
     Attributes:
-        decision: ``keep`` the motion that runs, run a ``new`` one from now on, or ``stop``: come to rest on one that is
+        decision: ``keep`` the running motion, run a ``new`` one from now on, or ``stop``: come to rest on one that is
             not proved to be safe, because nothing better was found in time.
         motion: The one that now runs, in the replanner's time; it ends at rest, and after its end the arm stands.
         reaches_goal: Whether it ends at the goal.
@@ -63,9 +63,9 @@ class Replanner:
     in position, velocity or acceleration.
 
     Args:
-        scene: Arm and obstacles; those with a motion may move, the others stand still.
+        scene: Arm and obstacles; those with a motion may move, the others are static.
         task: Which one; may be left out if there is only one.
-        seed: Of what is drawn by lot: same seed, same decisions, as long as no deadline cuts an update short.
+        seed: Random seed: same seed, same decisions, as long as no deadline cuts an update short.
         q: Where the arm is (rad); None for the task's start, elbow-up where it may be either posture.
 
     Raises:
@@ -137,7 +137,7 @@ class Replanner:
             q: Where the joints are (rad).
             v: Their velocities (rad/s); None for an arm at rest.
             a: Their accelerations (rad/s²); None for 0.
-            deadline: How long the update may look for something better (s); None for as long as it likes. It ends
+            deadline: How long the update may search for something better (s); None for no limit. It ends
                 some milliseconds later at most.
 
         Raises:

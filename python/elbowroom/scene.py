@@ -10,14 +10,16 @@ from importlib import resources
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from elbowroom._core import Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task
+from elbowroom._core import Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task, Units
 from elbowroom.errors import SceneError
 
 __all__ = [
+    "AngleUnit",
     "Arm",
     "Configuration",
     "Grid",
     "Joint",
+    "LengthUnit",
     "Obstacle",
     "ObstacleMotion",
     "Outline",
@@ -26,6 +28,7 @@ __all__ = [
     "PostureWish",
     "Scene",
     "Task",
+    "Units",
     "example_text",
     "text_of",
 ]
@@ -33,6 +36,9 @@ __all__ = [
 Pair: TypeAlias = tuple[float, float]
 Outline: TypeAlias = tuple[Sequence[Pair], float]
 """A shape as points with a radius (m): all that is within it of one point, of the line between two, or of a polygon."""
+
+LengthUnit: TypeAlias = Literal["m", "cm", "mm"]
+AngleUnit: TypeAlias = Literal["rad", "deg"]
 
 PostureWish: TypeAlias = Literal["up", "down", "any", "keep"]
 
@@ -53,6 +59,10 @@ def text_of(path: str | Path) -> str:
     def refused(what: str) -> SceneError:
         return SceneError(f"{path}: {what}", key="", file=str(path))
 
+    if str(path) == "-":
+        raise refused("a scene is read from a file, not from standard input")
+    if Path(path).suffix == ".csv":
+        raise refused("this is a table, not a scene; the scene comes first, then the trajectory")
     try:
         with Path(path).open("rb") as file:
             content = file.read(LARGEST_FILE + 1)

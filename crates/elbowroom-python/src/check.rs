@@ -108,7 +108,7 @@ impl Curve {
 
 /// The verifier's answer on a trajectory; ``bool(check)`` is whether it is proved to be safe.
 ///
-/// The verifier alone makes them. One that is unpickled has been made anew: the trajectory is judged again.
+/// The verifier alone makes them. One that is unpickled has been made anew: the trajectory is verified again.
 #[pyclass(frozen, eq, module = "elbowroom._core")]
 pub(crate) struct Check {
     motion: Py<Motion>,
@@ -142,7 +142,7 @@ impl Check {
     }
 
     /// What was taken between its rows: ``linear`` for positions alone, ``cubic`` with velocities, ``quintic`` with
-    /// accelerations too. What such curves let jump by their nature, the velocity of a linear one, is held against a
+    /// accelerations too. What such curves let jump by their nature, the velocity of a linear one, is compared with a
     /// joint only if the rate above it is limited.
     #[getter]
     fn curve(&self) -> &'static str {
@@ -278,7 +278,7 @@ pub(crate) fn judged(
         return Err(errors::setting(
             py,
             "margin",
-            &format!("margin is {margin} m, it must be finite and not negative"),
+            &format!("margin is {}, it must be finite and not negative", core.units().stated_length(margin)),
         ));
     }
     let settings = terms.settings();

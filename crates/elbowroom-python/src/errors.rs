@@ -5,6 +5,7 @@ use elbowroom::online::ReplanError;
 use elbowroom::planners::{self, PaperError};
 use elbowroom::planning::PlanError;
 use elbowroom::scene::{Place, SceneError, TwoLinkError};
+use elbowroom::units::{Told, Units, stated};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 
@@ -61,8 +62,8 @@ pub(crate) fn timeout(seconds: Option<f64>) -> PyResult<Option<f64>> {
 }
 
 /// The task's `end` (start or goal) is not free.
-pub(crate) fn not_free(py: Python<'_>, task: &str, end: &str, refused: &NotFree) -> PyErr {
-    exception(py, "NotFree", &format!("{end}: {refused}"), |fields| {
+pub(crate) fn not_free(py: Python<'_>, units: Units, task: &str, end: &str, refused: &NotFree) -> PyErr {
+    exception(py, "NotFree", &format!("{end}: {}", refused.told(units)), |fields| {
         fields.set_item("task", task)?;
         fields.set_item("end", end)?;
         match &refused.place {
@@ -122,7 +123,7 @@ fn reason_fields<'py>(
 /// Time ran out, in whatever was being done.
 pub(crate) fn timed_out(py: Python<'_>, timeout: Option<f64>) -> PyErr {
     let message = match timeout {
-        Some(seconds) => format!("nothing found within the timeout of {seconds} s"),
+        Some(seconds) => format!("nothing found within the timeout of {} s", stated(seconds)),
         None => "stopped".to_owned(),
     };
     exception(py, "TimedOut", &message, |fields| fields.set_item("timeout", timeout))
@@ -151,8 +152,14 @@ pub(crate) fn two_link(py: Python<'_>, what: &str, error: &TwoLinkError) -> PyEr
 }
 
 /// Why the paper's system has no plan.
-pub(crate) fn paper(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PaperError) -> PyErr {
-    let message = error.to_string();
+pub(crate) fn paper(
+    py: Python<'_>,
+    units: Units,
+    task: &str,
+    timeout: Option<f64>,
+    error: &PaperError,
+) -> PyErr {
+    let message = error.told(units);
     match error {
         PaperError::Moving { .. } => setting(py, "scene", &message),
         PaperError::OtherArm { links } => {
@@ -160,8 +167,8 @@ pub(crate) fn paper(py: Python<'_>, task: &str, timeout: Option<f64>, error: &Pa
         }
         PaperError::Swarm(_) => setting(py, "swarm", &message),
         PaperError::Duration { .. } => setting(py, "duration", &message),
-        PaperError::Start(refused) => not_free(py, task, "start", refused),
-        PaperError::Goal(refused) => not_free(py, task, "goal", refused),
+        PaperError::Start(refused) => not_free(py, units, task, "start", refused),
+        PaperError::Goal(refused) => not_free(py, units, task, "goal", refused),
         PaperError::NotFound { step } => not_found(py, &message, Some((*step, "m"))),
         PaperError::Stopped => timed_out(py, timeout),
         PaperError::Follow(_) | PaperError::GoalNode(_) | PaperError::Motion(_) => internal(py, &message),
@@ -179,14 +186,21 @@ pub(crate) fn scene_file(py: Python<'_>, error: &SceneError) -> PyErr {
 }
 
 /// Why there is no plan.
-pub(crate) fn plan(py: Python<'_>, task: &str, timeout: Option<f64>, error: &PlanError) -> PyErr {
-    let message = error.to_string();
+pub(crate) fn plan(
+    py: Python<'_>,
+    units: Units,
+    task: &str,
+    timeout: Option<f64>,
+    error: &PlanError,
+) -> PyErr {
+    let message = error.told(units);
     match error {
         PlanError::BadSettings { .. } => setting(py, "planner", &message),
         PlanError::Duration { .. } | PlanError::TooFast { .. } => setting(py, "duration", &message),
-        PlanError::Start(refused) => not_free(py, task, "start", refused),
-        PlanError::Goal(refused) => not_free(py, task, "goal", refused),
+        PlanError::Start(refused) => not_free(py, units, task, "start", refused),
+        PlanError::Goal(refused) => not_free(py, units, task, "goal", refused),
         PlanError::GoalPosture { .. } => setting(py, "posture", &message),
+        PlanError::OutsideGrid { .. } => setting(py, "grid", &message),
         PlanError::NotFound { step } => not_found(py, &message, Some((*step, "m"))),
         PlanError::NotFoundOverJoints { distance } => not_found(py, &message, Some((*distance, "rad"))),
         PlanError::NoPath(proof) => exception(py, "NoPath", &message, |fields| {
@@ -227,20 +241,20 @@ pub(crate) fn proposed(
         | PlanError::Failed { .. }
         | PlanError::Mismatch { .. }
         | PlanError::BelowBound { .. } => None,
-        other => return plan(py, task, timeout, other),
+        other => return plan(py, scene.units(), task, timeout, other),
     };
-    exception(py, "PlannerFault", &error.to_string(), |fields| {
+    exception(py, "PlannerFault", &error.told(scene.units()), |fields| {
         fields.set_item("planner", planner)?;
         fields.set_item("verdict", verdict)
     })
 }
 
 /// Why there is no replanner for `task`.
-pub(crate) fn replan(py: Python<'_>, what: &str, task: &str, error: &ReplanError) -> PyErr {
+pub(crate) fn replan(py: Python<'_>, units: Units, what: &str, task: &str, error: &ReplanError) -> PyErr {
     match error {
         ReplanError::Arm(error) => two_link(py, what, error),
-        ReplanError::Goal(refused) => not_free(py, task, "goal", refused),
-        ReplanError::Routes(refused) => plan(py, task, None, refused),
+        ReplanError::Goal(refused) => not_free(py, units, task, "goal", refused),
+        ReplanError::Routes(refused) => plan(py, units, task, None, refused),
         other => internal(py, &other.to_string()),
     }
 }

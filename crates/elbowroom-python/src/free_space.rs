@@ -13,6 +13,7 @@ use crate::watch;
 /// The free Cartesian space: for each grid point and posture whether the tip may stand there, and why not.
 #[pyclass(frozen, module = "elbowroom._core")]
 pub(crate) struct FreeSpace {
+    scene: Py<Scene>,
     space: elbowroom::free_space::FreeSpace,
     cases: Cases,
     shape: (usize, usize),
@@ -51,6 +52,16 @@ impl FreeSpace {
         Ok((kinds.into_pyarray(py), parts.into_pyarray(py), obstacles.into_pyarray(py)))
     }
 
+    /// How many free configurations put the tip on each point, shape ``(rows, columns)``: 0, 1 or 2. At full stretch both
+    /// postures are one configuration.
+    #[getter]
+    fn configurations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u8>>> {
+        let two_link = self.scene.get().two_link(py, "a map per posture")?;
+        let counts: Vec<u8> = self.space.configurations(two_link).collect();
+        let columns = self.shape.1;
+        Ok(Array2::from_shape_fn(self.shape, |(row, column)| counts[row * columns + column]).into_pyarray(py))
+    }
+
     /// How many points have ``two``, ``one`` and ``none`` free configurations: the paper's three cases.
     #[getter]
     fn cases<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -65,13 +76,14 @@ impl FreeSpace {
 /// Return the free-space maps of ``scene``.
 #[pyfunction]
 #[pyo3(signature = (scene, *, timeout=None))]
-pub(crate) fn free_space(py: Python<'_>, scene: &Scene, timeout: Option<f64>) -> PyResult<FreeSpace> {
-    let two_link = scene.two_link(py, "a map per posture")?;
+pub(crate) fn free_space(py: Python<'_>, scene: Py<Scene>, timeout: Option<f64>) -> PyResult<FreeSpace> {
+    let two_link = scene.get().two_link(py, "a map per posture")?;
     let (found, _) = watch::run(py, timeout, None, |watch| {
         let space = elbowroom::free_space::FreeSpace::of_until(two_link, &|| watch.keep_going())?;
         let cases = space.cases(two_link);
         Some((space, cases))
     })?;
     let (space, cases) = found.ok_or_else(|| errors::timed_out(py, timeout))?;
-    Ok(FreeSpace { space, cases, shape: (two_link.grid().rows(), two_link.grid().columns()) })
+    let shape = (two_link.grid().rows(), two_link.grid().columns());
+    Ok(FreeSpace { scene, space, cases, shape })
 }

@@ -18,7 +18,6 @@ mod threads;
 mod verdict;
 mod verdict_parts;
 mod watch;
-mod words;
 
 use pyo3::prelude::*;
 
@@ -45,7 +44,10 @@ mod _core {
     #[pymodule_export]
     use super::proposed::plan_proposed;
     #[pymodule_export]
-    use super::scene::{Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task, scene_again};
+    use super::scene::{
+        Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task, Units, measured, scene_again,
+        stated,
+    };
     #[pymodule_export]
     use super::verdict::{Verdict, verdict_again};
     #[pymodule_export]

@@ -1,13 +1,13 @@
 use std::sync::Arc;
 
 use elbowroom::trajectory::{self, Piece};
+use elbowroom::units::short;
 use numpy::ndarray::{Array1, Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray1, PyReadonlyArray3};
 use pyo3::prelude::*;
 
 use crate::errors;
 use crate::once::Once;
-use crate::words::short;
 
 /// Polynomial pieces over time, one after the other; nothing says that an arm may run them.
 ///

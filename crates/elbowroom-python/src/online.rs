@@ -9,6 +9,7 @@ use elbowroom::online::{self, Decision, KnownMotion};
 use elbowroom::planning::Monitor;
 use elbowroom::scene::{self, Course, Place, Sight, Task, TaskPosture};
 use elbowroom::trajectory::State;
+use elbowroom::units::Units;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
@@ -52,7 +53,7 @@ impl Replanner {
     ) -> PyResult<Self> {
         let asked = scene.task(py, task)?;
         scene.check_links(py, WHAT)?;
-        let scene = &scene.scene;
+        let (units, scene) = (scene.units(), &scene.scene);
         let start = match q {
             Some(q) => Place::Configuration(pair(py, "q", &q)?.into()),
             None => asked.start.clone(),
@@ -61,12 +62,12 @@ impl Replanner {
         let now = now.map_err(|error| errors::setting(py, "scene", &error.to_string()))?;
         let now = now.two_link().map_err(|error| errors::two_link(py, WHAT, &error))?;
         let starts = py.detach(|| configurations(now, &start));
-        let starts = starts.map_err(|refused| errors::not_free(py, task, "start", &refused))?;
+        let starts = starts.map_err(|refused| errors::not_free(py, units, task, "start", &refused))?;
         let Some(&start) = starts.first() else { return Err(errors::internal(py, "no start")) };
-        let goal = goal(py, scene, asked)?;
+        let goal = goal(py, units, scene, asked)?;
         let made = py.detach(|| with_threads(|| online::Replanner::new(scene.clone(), start, &goal, seed)));
         let made = made.ok_or_else(|| errors::no_threads(py))?;
-        let replanner = made.map_err(|error| errors::replan(py, WHAT, task, &error))?;
+        let replanner = made.map_err(|error| errors::replan(py, units, WHAT, task, &error))?;
         Ok(Self { replanner: Mutex::new(replanner), start })
     }
 
@@ -175,7 +176,7 @@ impl World {
     }
 
     /// Return what the arm, which is at ``q`` (rad), knows of each obstacle that moves: its place among the scene's
-    /// obstacles, and its course, or where it is seen: shift (m), time (s) and greatest speed (m/s); ``None`` for one that
+    /// obstacles, and its course, or where it is seen: shift (m), time (s) and maximum speed (m/s); ``None`` for one that
     /// it knows nothing of.
     #[pyo3(signature = (*, q))]
     fn known<'py>(
@@ -269,19 +270,18 @@ fn known_motion(
 }
 
 /// The goal of `task`, in the posture it asks for.
-fn goal(py: Python<'_>, scene: &scene::Scene, task: &Task) -> PyResult<Place> {
+fn goal(py: Python<'_>, units: Units, scene: &scene::Scene, task: &Task) -> PyResult<Place> {
     let wanted = match task.posture {
         TaskPosture::Any => return Ok(task.goal.clone()),
         TaskPosture::Up => Posture::ElbowUp,
         TaskPosture::Down => Posture::ElbowDown,
         TaskPosture::Keep => {
-            let message =
-                "an arm that gets out of the way cannot promise to keep its posture; up, down or any";
+            let message = "the replanner cannot keep a posture: evading obstacles may need the other; use up, down or any";
             return Err(errors::setting(py, "posture", message));
         }
     };
     let goals = py.detach(|| online::goal_configurations(scene, &task.goal));
-    let goals = goals.map_err(|error| errors::replan(py, WHAT, &task.name, &error))?;
+    let goals = goals.map_err(|error| errors::replan(py, units, WHAT, &task.name, &error))?;
     let fits = |q: &[f64; 2]| Posture::of(q).is_none_or(|posture| posture == wanted);
     let found = goals.into_iter().find(fits).ok_or_else(|| {
         let message = format!("the goal cannot be reached {}", wanted.name());

@@ -3,6 +3,7 @@ use elbowroom::path::{JointPath, JumpKind, TipPath};
 use elbowroom::planners::{self, Method, PaperSettings};
 use elbowroom::planning::Objective;
 use elbowroom::swarm::GuidedSwarmSettings;
+use elbowroom::units::short;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
@@ -14,7 +15,6 @@ use crate::plan::{Question, Setting, every, in_order, within};
 use crate::scene::Scene;
 use crate::verdict::Verdict;
 use crate::watch;
-use crate::words::short;
 
 /// What the paper's system finds: a path over the union of both postures, and polynomials that nobody verified.
 ///
@@ -227,7 +227,7 @@ pub(crate) fn plan_as_in_paper(
     let settings = PaperSettings { method, seed, vias, duration };
     let work = |watch: &watch::Watch| planners::plan_as_in_paper(&core.scene, asked, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
-    let plan = result.map_err(|error| errors::paper(py, task, timeout, &error))?;
+    let plan = result.map_err(|error| errors::paper(py, scene.get().units(), task, timeout, &error))?;
     let mut settings = vec![
         ("mode".to_owned(), Setting::Word("paper".to_owned())),
         ("vias".to_owned(), Setting::Count(vias)),

@@ -1,6 +1,7 @@
 //! A plan as Python shows it.
 
 use elbowroom::planning::{self, Objective};
+use elbowroom::units::short;
 use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -12,11 +13,10 @@ use crate::once::Once;
 use crate::plan_kept;
 use crate::scene::Scene;
 use crate::verdict::{Asked, Verdict};
-use crate::words::short;
 
 /// What a planner found for a task: a motion that is proved to be safe in its scene, and how it came to be.
 ///
-/// Planners alone make plans. One that is unpickled has had its motion judged again; the path it was made from and its lower
+/// Planners alone make plans. One that is unpickled has had its motion verified again; the path it was made from and its lower
 /// bound are as they were kept. Plans are equal if all but their timings is.
 /// Arrays cannot be written to.
 #[pyclass(frozen, eq, module = "elbowroom._core")]

@@ -60,7 +60,7 @@ impl Kept {
     }
 }
 
-/// Return the plan of ``motion`` in ``scene`` that was ``kept``, judged again.
+/// Return the plan of ``motion`` in ``scene`` that was ``kept``, verified again.
 ///
 /// Raises:
 ///     Refuted: The motion is not safe, or its cost is not what was kept.

@@ -2,6 +2,7 @@
 
 use elbowroom::planners;
 use elbowroom::planning::{self, ASSUMED_LIMITS, Objective, OptionValue, Pace, PlanSettings, Planner};
+use elbowroom::units::Told;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -127,7 +128,7 @@ pub(crate) fn plan(
     let settings = PlanSettings { objective, pace, seed, gap };
     let work = |watch: &watch::Watch| planning::plan(&core.scene, asked, &*planner, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
-    let plan = result.map_err(|error| errors::plan(py, task, timeout, &error))?;
+    let plan = result.map_err(|error| errors::plan(py, core.units(), task, timeout, &error))?;
     let question = Question {
         scene: scene.clone_ref(py),
         task: task.to_owned(),
@@ -188,7 +189,7 @@ pub(crate) fn mismatch(
 ) -> PyResult<Option<String>> {
     let core = scene.get();
     let found = planning::mismatch(&core.scene, core.task(py, task)?, &motion.motion, &posture_changes);
-    Ok(found.map(|mismatch| mismatch.to_string()))
+    Ok(found.map(|mismatch| mismatch.told(core.units())))
 }
 
 /// By which share of ``lower_bound`` ``cost`` is above it; ``None`` where that says nothing.

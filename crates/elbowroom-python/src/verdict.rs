@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use elbowroom::trajectory;
+use elbowroom::units::short;
 use elbowroom::verify::{self, FLOOR};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -13,11 +14,10 @@ use crate::errors;
 use crate::motion::Motion;
 use crate::scene::Scene;
 use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
-use crate::words::short;
 
 /// What the verifier says of a motion. ``safe`` is a proof; ``bool(verdict)`` is the same.
 ///
-/// The verifier alone makes verdicts. One that is unpickled has been made anew: the motion is judged again.
+/// The verifier alone makes verdicts. One that is unpickled has been made anew: the motion is verified again.
 #[pyclass(frozen, eq, module = "elbowroom._core")]
 pub(crate) struct Verdict {
     found: Found,
@@ -50,8 +50,9 @@ impl PartialEq for Verdict {
 
 impl Verdict {
     pub(crate) fn new(scene: &Scene, verdict: &verify::Verdict, asked: Option<Asked>) -> Self {
+        let margin = asked.as_ref().map_or(0.0, |asked| asked.terms.margin);
         let found = Found {
-            violations: verdict.violations.iter().map(|violation| Violation::of(scene, violation)).collect(),
+            violations: verdict.violations.iter().map(|one| Violation::of(scene, margin, one)).collect(),
             least_clearance: verdict.least_clearance.map(|least| Clearance::of(scene, &least)),
             joint_margins: verdict.joint_margins.iter().map(|m| m.as_ref().map(JointMargin::of)).collect(),
             motion_margins: verdict.motion_margins.iter().map(MotionMargins::of).collect(),
@@ -103,7 +104,7 @@ impl Verdict {
         self.found.least_clearance.clone()
     }
 
-    /// How near each joint comes to its stops, base first; ``None`` for a joint without stops.
+    /// How near each joint comes to its limits, base first; ``None`` for a joint without limits.
     #[getter]
     fn joint_margins<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         PyTuple::new(py, self.found.joint_margins.iter().cloned())
@@ -158,7 +159,7 @@ impl Verdict {
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let Some(asked) = &self.asked else {
-            let message = "cannot pickle a replanner's verdict: what was known of the obstacles is not kept to judge again";
+            let message = "cannot pickle a replanner's verdict: what was known of the obstacles is not kept, so it cannot be verified again";
             return Err(PyTypeError::new_err(message));
         };
         let again = py.import("elbowroom._core")?.getattr("verdict_again")?;
@@ -168,7 +169,7 @@ impl Verdict {
     }
 }
 
-/// Return the verdict on ``motion`` in ``scene``, judged again on the same ``terms``: curve, margin, the curves at its ends if it
+/// Return the verdict on ``motion`` in ``scene``, verified again on the same ``terms``: curve, margin, the curves at its ends if it
 /// is to be at rest there, and lead; ``safe`` is what an earlier one said.
 ///
 /// Raises:

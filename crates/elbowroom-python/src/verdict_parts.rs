@@ -1,11 +1,12 @@
 //! What a verdict is made of: plain values, one class a kind.
 
+use elbowroom::scene::obstacle_in_words;
+use elbowroom::units::short;
 use elbowroom::verify::{self, Against};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::scene::Scene;
-use crate::words::short;
 
 /// What a link is up against: an obstacle, from 0, and its name, or another link, from 1.
 #[derive(Clone, PartialEq)]
@@ -38,11 +39,10 @@ impl Other {
     }
 
     fn in_words(&self) -> String {
-        match (&self.name, self.obstacle, self.link) {
-            (Some(name), ..) => format!("obstacle '{name}'"),
-            (None, Some(obstacle), _) => format!("obstacle {obstacle}"),
-            (None, None, Some(link)) => format!("link {link}"),
-            (None, None, None) => "nothing".to_owned(),
+        match (self.obstacle, self.link) {
+            (Some(obstacle), _) => obstacle_in_words(obstacle, self.name.as_deref()),
+            (None, Some(link)) => format!("link {link}"),
+            (None, None) => "nothing".to_owned(),
         }
     }
 }
@@ -82,11 +82,12 @@ pub(crate) struct Violation {
 }
 
 impl Violation {
-    pub(crate) fn of(scene: &Scene, violation: &verify::Violation) -> Self {
+    /// Of a motion in `scene` that was to keep a clearance of `margin` (m).
+    pub(crate) fn of(scene: &Scene, margin: f64, violation: &verify::Violation) -> Self {
         use verify::Violation as Kind;
         let blank = |kind: &str| Self {
             kind: kind.to_owned(),
-            message: violation.to_string(),
+            message: violation.told_of(Some(&scene.scene), scene.units(), margin),
             time: violation.time(),
             joint: None,
             link: None,
@@ -160,6 +161,12 @@ impl Violation {
     #[getter]
     fn other_link(&self) -> Option<usize> {
         self.other.as_ref().and_then(|other| other.link)
+    }
+
+    /// What the link is up against as texts call it: obstacles count from 1 there.
+    #[getter]
+    fn against(&self) -> Option<String> {
+        self.other.as_ref().map(Other::in_words)
     }
 
     /// Return what goes with its kind as a dictionary.
@@ -245,6 +252,12 @@ impl Clearance {
         self.other.link
     }
 
+    /// The obstacle or the other link as texts call it: obstacles count from 1 there.
+    #[getter]
+    fn against(&self) -> String {
+        self.other.in_words()
+    }
+
     /// Return it as a dictionary.
     pub(crate) fn as_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let part = PyDict::new(py);
@@ -262,11 +275,11 @@ impl Clearance {
     }
 }
 
-/// How near a joint comes to its stops.
+/// How near a joint comes to its limits.
 #[pyclass(frozen, eq, get_all, module = "elbowroom._core")]
 #[derive(Clone, PartialEq)]
 pub(crate) struct JointMargin {
-    /// To the nearer stop (rad); below 0 beyond it.
+    /// To the nearer limit (rad); below 0 beyond it.
     distance: f64,
     /// When (s).
     time: f64,

@@ -27,7 +27,7 @@
 //! ```
 //!
 //! Modules import only from those before them:
-//! `geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < roadmap < planning < planners < online`.
+//! `units < geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < roadmap < planning < planners < online`.
 
 // Sine, logarithm and their like come from `libm`, which is the same everywhere: clippy.toml lists what does not.
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
@@ -48,6 +48,7 @@ pub mod scene;
 pub mod search;
 pub mod swarm;
 pub mod trajectory;
+pub mod units;
 pub mod verify;
 
 pub use arm::{Arm, Configuration};

@@ -78,7 +78,7 @@ fn motion_limits_that_are_none_are_refused_by_the_joint_s_number() {
             for value in none.into_iter().chain([1e-300, 0.9e-6, 1.1e12, 1e300]) {
                 let error = with(Some(value)).unwrap_err();
                 assert!(
-                    error.to_string().contains(&format!("joint {number}: greatest {rate} is")),
+                    error.to_string().contains(&format!("joint {number}: limit on {rate} is")),
                     "{error}"
                 );
                 let ArmError::MotionLimit { joint, error: MotionLimitError { rate: named, value: found } } =

@@ -55,7 +55,7 @@ fn assert_refused(scene: &Scene, obstacle: usize, called: &str) {
         let task = &scene.tasks()[0];
         let refused = plan(scene, task, &*planner, &PlanSettings::default(), &Unwatched).unwrap_err();
         assert_eq!(refused, PlanError::Moving { obstacle, name: Some(called.to_owned()) }, "{name}");
-        assert!(refused.to_string().contains(&format!("obstacle '{called}'")), "{refused}");
+        assert!(refused.to_string().contains(&format!("obstacle {} ({called})", obstacle + 1)), "{refused}");
     }
 }
 

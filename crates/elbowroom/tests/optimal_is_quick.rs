@@ -40,7 +40,7 @@ fn one_post(turns: f64) -> Scene {
     let first = build::joint(build::stops(-turns * PI, turns * PI));
     let arm = build::arm_of(&[0.1, 1.0], 0.0, &[first, Joint::CONTINUOUS]);
     let at = |first: f64, second: f64| Place::Configuration([first, second].into());
-    let task = build::task("go", at(0.99 * turns * PI, -4.3), at(-0.95 * turns * PI, 2.4), TaskPosture::Any);
+    let task = build::task("go", at(turns * PI, -4.3), at(-0.95 * turns * PI, 2.4), TaskPosture::Any);
     build::scene(arm, vec![build::circle(0.4, 0.8, 0.0005)]).with_tasks(vec![task]).unwrap()
 }
 

@@ -129,7 +129,7 @@ fn closed_forms_are_of_two_links_among_what_stands_still() {
         assert!(refused.to_string().contains("obstacle 2 moves"), "{refused}");
         obstacles[1].name = Some("cart".to_owned());
         let refused = still.with_obstacles(obstacles).unwrap().two_link().unwrap_err();
-        assert!(refused.to_string().contains("obstacle 'cart' moves"), "{refused}");
+        assert!(refused.to_string().contains("obstacle 2 (cart) moves"), "{refused}");
     }
 }
 

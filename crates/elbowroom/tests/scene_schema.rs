@@ -11,7 +11,7 @@ elbowroom: 1
 units: {length: cm, angle: deg}
 arm:
   links: [25, 20]
-  joints: [{continuous: true, velocity: 90, acceleration: 90, jerk: 90}, {min: -150, max: 150}]
+  joints: [{continuous: true, velocity: 90, acceleration: 90, jerk: 90}, {min: -50, max: 50}]
   half_width: 2
 grid: {x: [-50, 50], y: [-40, 40], step: 1}
 obstacles:

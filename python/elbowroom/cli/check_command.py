@@ -16,7 +16,9 @@ if TYPE_CHECKING:
 
 def check_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
-    file: Annotated[Path, typer.Argument(help="Trajectory: our CSV, or a JointTrajectory as JSON or YAML.")],
+    file: Annotated[
+        Path, typer.Argument(help="Trajectory: CSV as plan writes it, or a ROS 2 JointTrajectory as JSON or YAML.")
+    ],
     joints: Annotated[
         str | None,
         typer.Option(help="Names of the arm's joints in the file, base first: FIRST,SECOND,...; others are left out."),
@@ -33,17 +35,18 @@ def check_command(
         typer.Option("--open-end", help="A part of a longer motion: it may begin and end while joints move."),
     ] = False,
     message: Annotated[
-        int | None, whole_option(help="Judge this message alone, from 1; left out, all those of the file.")
+        int | None, whole_option(help="Judge this message alone, from 1; default: all of the file.")
     ] = None,
-    margin: Annotated[float, number_option(help="Clearance to keep (m).")] = 0.0,
+    margin: Annotated[str, typer.Option(help="Clearance to keep, in the unit of the scene or as 5mm.")] = "0",
     timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Judge anybody's trajectory, from rest to rest: exit code 0 only if all of it is proved to be safe, else 4."""
+    """Verify a trajectory, from rest to rest: exit code 0 only if all of it is proved to be safe, otherwise 4."""
     with reported():
         import json
 
         from elbowroom.check import check_messages
+        from elbowroom.cli.length import metres
         from elbowroom.cli.plan_text import verdict_lines
         from elbowroom.cli.start import start_of
         from elbowroom.errors import BadSetting
@@ -59,9 +62,9 @@ def check_command(
             file,
             message=message,
             joints=names,
-            start=None if start is None else start_of(start, loaded, scene),
+            start=None if start is None else start_of(start, loaded),
             open_end=open_end,
-            margin=margin,
+            margin=metres(margin, loaded.units, setting="margin"),
             timeout=timeout,
         )
         safe = all(answer.safe for answer in answers)

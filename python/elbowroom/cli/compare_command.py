@@ -22,29 +22,29 @@ def compare_command(
     planners: Annotated[
         str | None,
         typer.Option(
-            help="Names with commas between, options as NAME:OPTION=VALUE:OPTION=VALUE; if left out those of "
+            help="Comma-separated names, options as NAME:OPTION=VALUE:OPTION=VALUE; default: those of "
             f"elbowroom's own that serve an arm of the scenes: {', '.join(OWN)}."
         ),
     ] = None,
     tasks: Annotated[
-        str | None, typer.Option(help="Names with commas between, to be there in every scene; all if left out.")
+        str | None, typer.Option(help="Comma-separated names, which every scene must have; default: all.")
     ] = None,
     seeds: Annotated[int, whole_option(least=1, help="Seeds 0 to N-1 for every planner and task.")] = 30,
     budget: Annotated[
-        int | None, whole_option(least=1, help="Evaluations a run, for planners that take a number; else their own.")
+        int | None, whole_option(least=1, help="Evaluations per run, for planners that count them; default: their own.")
     ] = None,
-    timeout: Annotated[float | None, number_option(help="A run gives up after so many seconds.")] = None,
-    objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
+    timeout: Annotated[float | None, number_option(help="Timeout of a run (s).")] = None,
+    objective: Annotated[str, typer.Option(help=f"Quantity to minimise: {LISTED}.")] = "tip",
     out: Annotated[
-        Path, folder_option(help="Folder for the rows, report.md and the pictures; rows there are not run again.")
+        Path, folder_option(help="Folder for the rows, report.md and the pictures; existing rows are not run again.")
     ] = Path("out/compare"),
-    jobs: Annotated[int | None, whole_option(least=1, help="Runs at a time; all cores if left out.")] = None,
+    jobs: Annotated[int | None, whole_option(least=1, help="Parallel runs; default: all cores.")] = None,
     on: Annotated[str, typer.Option(help="local, or ray for a Ray cluster.")] = "local",
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Run planners side by side: every planner, task and seed, each motion judged by the verifier.
+    """Compare planners: every planner, task and seed, each motion checked by the verifier.
 
-    Stopped half-way, the same command goes on where it was.
+    If interrupted, the same command resumes.
     """
     with reported():
         import json
@@ -80,11 +80,13 @@ def compare_command(
             say("drawing")
             report, *_ = write_report(done.rows, out, planners=labels, command=command, show=say)
         successes = sum(row.success for row in done.rows)
+        apart = sum(not row.applicable for row in done.rows)
         if as_json:
             found = {
                 "runs": len(done.rows),
                 "run_now": done.fresh,
                 "success": successes,
+                "not_applicable": apart,
                 "rows": str(done.table),
                 "parquet": None if done.parquet is None else str(done.parquet),
                 "report": str(report),
@@ -95,7 +97,9 @@ def compare_command(
             typer.echo(f"{done.table}: a half-written last line was cut off and its run made again")
         kept = len(done.rows) - done.fresh
         typer.echo(
-            f"{len(done.rows)} runs, {successes} with success" + (f"; {kept} were there already" if kept else "")
+            f"{len(done.rows)} runs, {successes} with success"
+            + (f", {apart} not applicable: the planner does not serve the arm, task or setting" if apart else "")
+            + (f"; {kept} were there already" if kept else "")
         )
         if done.beside:
             typer.echo(f"{done.beside} rows of other runs are in the table and not in the report")
@@ -127,7 +131,7 @@ def _goes_on(out: Path) -> Iterator[None]:
     try:
         yield
     except KeyboardInterrupt:
-        print(f"the rows so far are in {out}; the same command goes on from there", file=sys.stderr)
+        print(f"the rows so far are in {out}; the same command resumes from there", file=sys.stderr)
         raise
 
 

@@ -15,25 +15,25 @@ if TYPE_CHECKING:
 
 
 def follow_command(
-    scene: Annotated[Path, typer.Argument(help="Scene file (YAML) whose obstacles may move.")],
-    task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
-    rate: Annotated[float, number_option(help="Updates a second (Hz); a step has to be whole milliseconds.")] = 50.0,
-    horizon: Annotated[float, number_option(help="How long the arm has (s, simulated).")] = 60.0,
-    seed: Annotated[int, whole_option(help="Of what is drawn by lot.")] = 0,
+    scene: Annotated[Path, typer.Argument(help="Scene file (YAML); its obstacles may move.")],
+    task: Annotated[str | None, typer.Option(help="Task of the scene; may be omitted if it has only one.")] = None,
+    rate: Annotated[float, number_option(help="Replanning rate (Hz); its period must be whole milliseconds.")] = 50.0,
+    horizon: Annotated[float, number_option(help="Simulated time limit (s).")] = 60.0,
+    seed: Annotated[int, whole_option(help="Random seed.")] = 0,
     deadline: Annotated[
         float | None,
-        number_option(help="Cut every update short after so many seconds; decisions then depend on the clock."),
+        number_option(help="Time budget per replanning step (s); makes results timing-dependent."),
     ] = None,
-    timeout: Annotated[float | None, number_option(help="Give up after so many seconds (real).")] = None,
+    timeout: Annotated[float | None, number_option(help="Give up after so many seconds of real time.")] = None,
     out: Annotated[
         Path | None, folder_option(help="Folder for follow.json, decisions.jsonl, trajectory.csv and the pictures.")
     ] = None,
-    animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
+    animate: Annotated[bool, typer.Option("--animate", help="With --out: also write an animation (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Keep an arm going among obstacles that move, simulated: exit code 0 if it reached the goal without contact.
+    """Simulate online replanning among moving obstacles: exit code 0 if the arm reached the goal without contact.
 
-    3 if it did not reach the goal in time, 4 if the verifier does not prove that what was followed was safe.
+    3 if it did not reach the goal in time, 4 if the verifier does not prove that the executed motion was safe.
     """
     with reported():
         import json

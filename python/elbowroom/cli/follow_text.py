@@ -1,7 +1,8 @@
-"""What was followed, in words."""
+"""A simulated episode in words."""
 
 from __future__ import annotations
 
+from elbowroom._core import measured
 from elbowroom.cli.plan_text import verdict_lines
 from elbowroom.follow import Followed
 from elbowroom.follow.files import summary
@@ -17,16 +18,20 @@ def in_words(followed: Followed) -> str:
     else:
         end = f"the goal not reached within {followed.horizon:g} s"
     decisions = found["decisions"]
-    spent = {name: f"{value * 1e3:.2f} ms" for name, value in found["update_s"].items()}
+    spent = {name: f"{measured(value * 1e3)} ms" for name, value in found["update_s"].items()}
     lines = [
         f"task '{followed.task}': {end}",
-        f"{found['updates']} updates at {followed.rate:g} Hz: {decisions['new']} new motions, "
-        f"{decisions['stop']} stops",
+        f"{found['updates']} updates at {followed.rate:g} Hz: {_count(decisions['new'], 'new motion')}, "
+        f"{_count(decisions['stop'], 'time')} braked to rest",
         f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
     if late := found["update_s"]["longer_than_a_step"]:
-        lines.append(f"{late} updates took longer than a step")
+        lines.append(f"{late} updates took longer than the period")
     if doubtful := found["updates_not_safe"]:
-        lines.append(f"{doubtful} updates found no motion that is proved to be safe as far as was known")
-    lines.append("what was followed, among the obstacles as they really moved:")
+        lines.append(f"{doubtful} updates found no motion that is proved safe by what was known")
+    lines.append("the executed motion, among the obstacles as they really moved:")
     return "\n".join([*lines, *verdict_lines(followed.check.verdict, followed.true_scene)])
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

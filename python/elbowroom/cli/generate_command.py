@@ -13,14 +13,12 @@ from elbowroom.cli.options import folder_option, whole_option
 
 def generate_command(
     out: Annotated[Path, folder_option(help="Folder for the scene files.")],
-    count: Annotated[int, whole_option(least=1, help="How many scenes.")] = 50,
-    seed: Annotated[int, whole_option(least=0, help="Same seed, same scenes.")] = 0,
-    links: Annotated[
-        int, whole_option(least=2, help="How many links the arm has; with more than 2 it must not touch itself.")
-    ] = 2,
+    count: Annotated[int, whole_option(least=1, help="Number of scenes.")] = 50,
+    seed: Annotated[int, whole_option(least=0, help="Random seed.")] = 0,
+    links: Annotated[int, whole_option(least=2, help="Number of links; arms of more than 2 avoid self-collision.")] = 2,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Draw random scenes around the paper's arm, or one of more links, to compare planners on."""
+    """Generate random scenes around the paper's arm, or one of more links, to compare planners on."""
     with reported():
         import json
 

@@ -24,6 +24,7 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
     epilog="Exit codes: 0 done, 1 proved that there is no path, 2 bad input, 3 nothing found in time, 4 not safe, "
     "70 a fault of elbowroom itself.",
 )

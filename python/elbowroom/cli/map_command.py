@@ -16,7 +16,7 @@ def map_command(
     out: Annotated[Path | None, folder_option(help="Folder for the pictures of the maps.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Map where the tip may stand, per posture, and why it may not elsewhere."""
+    """Map the reachable, collision-free tip positions per posture, and why the others are not."""
     with reported():
         import json
 

@@ -13,11 +13,11 @@ from elbowroom.cli.options import folder_option, whole_option
 
 def paper_command(
     out: Annotated[Path, folder_option(help="Folder for the pictures and report.md.")] = Path("out/paper"),
-    seed: Annotated[int, whole_option(help="Seed of the runs that are drawn.")] = 0,
-    seeds: Annotated[int, whole_option(least=1, help="How many seeds the counts are over.")] = 100,
+    seed: Annotated[int, whole_option(help="Random seed of the runs in the pictures.")] = 0,
+    seeds: Annotated[int, whole_option(least=1, help="Number of seeds for the statistics.")] = 100,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Redo the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""
+    """Reproduce the paper's experiments: its figures 4 to 19, and its printed numbers beside ours."""
     with reported():
         import json
 

@@ -20,24 +20,24 @@ if TYPE_CHECKING:
 
 def plan_command(
     scene: Annotated[Path, typer.Argument(help="Scene file (YAML).")],
-    task: Annotated[str | None, typer.Option(help="Which task of the scene; may be left out if it has one.")] = None,
+    task: Annotated[str | None, typer.Option(help="Task of the scene; may be omitted if it has only one.")] = None,
     planner: Annotated[
         str | None,
         typer.Option(
             help=f"{', '.join(OWN)}, or a plug-in; options as NAME:OPTION=VALUE:OPTION=VALUE. "
-            "Left out: dstar-pso for two links, guided-rrt-connect for more."
+            "Default: dstar-pso for two links, guided-rrt-connect for more."
         ),
     ] = None,
-    objective: Annotated[str, typer.Option(help=f"What shall be short: {LISTED}.")] = "tip",
-    seed: Annotated[int, whole_option(help="Seed of the swarm.")] = 0,
+    objective: Annotated[str, typer.Option(help=f"Quantity to minimise: {LISTED}.")] = "tip",
+    seed: Annotated[int, whole_option(help="Random seed.")] = 0,
     timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
-    duration: Annotated[str, typer.Option(help="How long the motion takes (s), or fastest.")] = "fastest",
+    duration: Annotated[str, typer.Option(help="Duration of the motion (s), or fastest.")] = "fastest",
     gap: Annotated[
         float | None,
-        number_option(help="With optimal: go on until the cost is proved to be this near to the best (0.01: 1 %)."),
+        number_option(help="With optimal: refine until the proven optimality gap is below this (0.01: 1 %)."),
     ] = None,
     out: Annotated[Path | None, folder_option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
-    animate: Annotated[bool, typer.Option("--animate", help="With --out: an animation too (GIF).")] = False,
+    animate: Annotated[bool, typer.Option("--animate", help="With --out: also write an animation (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
     """Plan a motion that is proved to be safe."""
@@ -97,7 +97,10 @@ def plan_command(
 
 def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
     """What ``make`` returns; where it proves that there is no path the proof is drawn into ``out``."""
+    from dataclasses import replace
+
     from elbowroom.errors import NoPath
+    from elbowroom.walls import walls_in_words
 
     try:
         return make()
@@ -106,6 +109,8 @@ def _planned(make: Callable[[], Plan], scene: Scene, out: Path | None) -> Plan:
             from elbowroom import figures
 
             typer.echo(f"wrote {figures.save(figures.no_path(scene, proof), out / 'no_path.png')}", err=True)
+        if walls := walls_in_words(scene, proof):
+            raise replace(proof, message=f"{proof.message}\naround all that the start can reach: {walls}") from None
         raise
 
 

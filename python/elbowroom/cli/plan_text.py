@@ -1,43 +1,49 @@
-"""A plan and a verdict in words."""
+"""A plan and a verdict in words, in the units of the scene."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
-from elbowroom._core import Clearance, Plan, Verdict
+from elbowroom._core import Plan, Verdict, measured, stated
 from elbowroom.numbered import numbered
 from elbowroom.objectives import OBJECTIVES
 from elbowroom.scene import Scene
 
-MOST_STOPS = 3
-"""With more joints that have stops than this, only the one nearest to a stop gets a line."""
+MOST_LIMITED = 3
+"""With more joints that have limits than this, only the one nearest to its limit gets a line."""
 
 
 def in_words(plan: Plan) -> str:
     """Return what a user wants to know of ``plan``."""
-    spent = sum(plan.timings.values())
-    stops = f", {plan.stops} of them stops" if plan.stops else ""
+    spent = measured(1e3 * sum(plan.timings.values()))
+    at_rest = f", {plan.stops} of them at rest" if plan.stops else ""
     lines = [
-        f"{plan.planner}: task '{plan.task}' planned in {spent * 1e3:.1f} ms, best of {plan.paths_to_choose_from} "
+        f"{plan.planner}: task '{plan.task}' planned in {spent} ms, best of {plan.paths_to_choose_from} "
         + ("path" if plan.paths_to_choose_from == 1 else "paths"),
-        f"cost {plan.cost:.6f} {_cost_in_words(plan)}; motion of {plan.motion.duration:.3f} s "
-        f"through {len(plan.vias)} via points{stops}",
+        f"cost {cost_in_words(plan, plan.cost)}{_of_what(plan)}; motion of {plan.motion.duration:.3f} s "
+        f"through {len(plan.vias)} via points{at_rest}",
     ]
     if plan.lower_bound is not None and plan.gap is not None:
-        lines.append(
-            f"no motion costs less than {plan.lower_bound:.6f}: this one is within {100 * plan.gap:.2f} % of the best"
-        )
+        bound = cost_in_words(plan, plan.lower_bound)
+        lines.append(f"proven lower bound {bound}, gap {measured(100.0 * plan.gap)} %")
     lines += verdict_lines(plan.verdict, plan.scene)
     if plan.assumed_limits:
-        lines.append(f"planned within what was assumed in place of limits: {_assumed(plan)}")
+        lines.append(f"planned within assumed limits, as the scene states none: {_assumed(plan)}")
     return "\n".join(lines)
 
 
-def _cost_in_words(plan: Plan) -> str:
+def cost_in_words(plan: Plan, cost: float) -> str:
+    """Return ``cost`` as ``plan``'s objective measures it, in the units of its scene."""
+    unit = OBJECTIVES[plan.objective].unit
+    if unit == "m":
+        return plan.scene.units.stated_length(cost)
+    return plan.scene.units.stated_angle(cost) if unit == "rad" else f"{stated(cost)} {unit}"
+
+
+def _of_what(plan: Plan) -> str:
     meaning = OBJECTIVES[plan.objective]
     # Seconds are of nothing else.
-    return meaning.unit if meaning.unit == "s" else f"{meaning.unit} of {meaning.quantity}"
+    return "" if meaning.unit == "s" else f" of {meaning.quantity}"
 
 
 def _assumed(plan: Plan) -> str:
@@ -46,22 +52,18 @@ def _assumed(plan: Plan) -> str:
     for joint, rate, value in plan.assumed_limits:
         joints.setdefault((rate, value), []).append(joint)
     return ", ".join(
-        f"{rate} {math.degrees(value):g} {UNIT_OF_RATE[rate]} ({numbered('joint', numbers)})"
+        f"{rate} {plan.scene.units.stated_angle(value, order=ORDERS[rate])} ({numbered('joint', numbers)})"
         for (rate, value), numbers in joints.items()
     )
 
 
-UNIT_OF_RATE = {"velocity": "deg/s", "acceleration": "deg/s²", "jerk": "deg/s³"}
-
-
-def _against(nearest: Clearance) -> str:
-    if nearest.other_link is not None:
-        return f"link {nearest.other_link}"
-    return f"obstacle {nearest.obstacle}" + (f" ({nearest.name})" if nearest.name else "")
+ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3}
+"""Which derivative of a joint's position a rate is."""
 
 
 def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> list[str]:
     """Return ``verdict`` on a motion in ``scene`` for people; ``open_end`` if it might begin and end moving."""
+    units = scene.units
     judged, left_out = _judged(verdict, scene)
     violations = list(verdict.violations)
     # What nobody has looked at comes before all else.
@@ -76,15 +78,17 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
         lines = ["SAFE: proved for the whole motion" + ", in all that was judged" * bool(left_out)]
     lines += [f"  {violation.message}" for violation in violations]
     nearest = verdict.least_clearance
-    if nearest is not None:
+    if nearest is not None and nearest.distance > 0.0:
         lines.append(
-            f"  least clearance {nearest.distance * 1e3:.4f} mm at {nearest.time:.3f} s, "
-            f"link {nearest.link} and {_against(nearest)}"
+            f"  least clearance {units.measured_length(nearest.distance)} at {nearest.time:.3f} s, "
+            f"link {nearest.link} and {nearest.against}"
         )
-    stops = [(m.distance, m.time, joint) for joint, m in enumerate(verdict.joint_margins, 1) if m is not None]
-    for distance, time, joint in stops if len(stops) <= MOST_STOPS else [min(stops)]:
-        others = "" if len(stops) <= MOST_STOPS else f", the {len(stops) - 1} others keep farther off"
-        lines.append(f"  joint {joint} comes within {math.degrees(distance):.3f} deg of a stop at {time:.3f} s{others}")
+    limited = [(m.distance, m.time, joint) for joint, m in enumerate(verdict.joint_margins, 1) if m is not None]
+    for distance, time, joint in limited if len(limited) <= MOST_LIMITED else [min(limited)]:
+        if distance >= 0.0:
+            others = "" if len(limited) <= MOST_LIMITED else f", the {len(limited) - 1} others have more"
+            margin = units.measured_angle(distance)
+            lines.append(f"  joint {joint} is closest to its limit at {time:.3f} s (margin {margin}{others})")
     changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
@@ -98,14 +102,14 @@ def _judged(verdict: Verdict, scene: Scene) -> tuple[list[str], list[str]]:
     judged = ["contact with obstacles", "joint limits"]
     judged += [] if alone or not scene.arm.self_collision else ["contact between links"]
     without_limits = []
-    for rate, unit in UNIT_OF_RATE.items():
+    for rate, order in ORDERS.items():
         margins = [getattr(of_joint, rate) for of_joint in verdict.motion_margins]
         without = [joint for joint, margin in enumerate(margins, 1) if margin.limit is None]
         if len(without) < len(margins):
             judged.append(rate + _of(without, len(margins), of_those=False))
         if without:
             greatest = max(margins[joint - 1].largest for joint in without)
-            reached = f" (up to {math.degrees(greatest):.4g} {unit})" if greatest > 0.0 else ""
+            reached = f" (up to {scene.units.measured_angle(greatest, order=order)})" if greatest > 0.0 else ""
             without_limits.append(rate + _of(without, len(margins), of_those=True) + reached)
     left_out = []
     if without_limits:

@@ -1,4 +1,4 @@
-"""What is being done, on stderr and only where someone looks."""
+"""What is being done, on stderr and only on a terminal."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from contextlib import contextmanager
 WORDS = {
     "free_space": "mapping the free space",
     "cost_to_go": "cost-to-go by D*",
-    "bound": "bounding the cost from below",
-    "tip_path": "drawing paths",
-    "joint_path": "following with the joints",
+    "bound": "proving a lower bound",
+    "tip_path": "sampling paths",
+    "joint_path": "solving for the joints",
     "trajectory": "timing the motion",
     "verdict": "verifying",
 }

@@ -1,4 +1,4 @@
-"""Planners side by side: the same tasks, seeds and limits for all, every motion judged by the verifier.
+"""Planners side by side: the same tasks, seeds and limits for all, every motion checked by the verifier.
 
 Example:
     >>> from pathlib import Path

@@ -79,7 +79,7 @@ def compare(
         seeds: Of the planners.
         budget: Evaluations a run, for planners that take a number.
         timeout: When a run shall give up (s).
-        objective: What shall be short: ``tip`` travel, ``joint`` travel or ``time``.
+        objective: Quantity to minimise: ``tip`` travel, ``joint`` travel or ``time``.
         jobs: Runs at a time; None for all cores of this machine or of the cluster.
         on: ``local``, or ``ray``.
         show: Called with the number of rows done and of all, at the start and after each.

@@ -18,7 +18,7 @@ LINK = 25.0
 """Length of both links (cm)."""
 
 BEND = 150.0
-"""How far joint 2 turns to either side (degrees)."""
+"""Range of joint 2 to either side (degrees)."""
 
 OBSTACLES = (5, 11)
 """Fewest and most obstacles."""
@@ -66,7 +66,7 @@ Point = tuple[float, float]
 def generated(number: int, *, seed: int) -> str:
     """Return scene ``number`` of ``seed`` as YAML: circles and polygons, and two tasks that are free at both ends.
 
-    At most one obstacle reaches into the circle that link 1 sweeps: two would often leave no way at all.
+    At most one obstacle reaches into the circle that link 1 sweeps: two would often leave no path at all.
     """
     random = np.random.default_rng([seed, number])
     while True:
@@ -162,7 +162,7 @@ def _free(scene: Scene, x: float, y: float) -> bool:
     bend = 2.0 * math.acos(min(distance / (2.0 * LINK), 1.0))
     if math.degrees(bend) > BEND:
         return False
-    # Links of equal length: the first is half the bend off the straight way to the tip.
+    # Links of equal length: the first is half the bend off the straight line to the tip.
     q = np.array([[math.atan2(y, x) - sign * bend / 2.0, sign * bend] for sign in (-1.0, 1.0)])
     clearances = scene.link_clearances(q)
     return bool(clearances.min(axis=1).max() > ROOM)

@@ -21,7 +21,7 @@ HALF_WIDTH = 0.2
 """Of every link (cm)."""
 
 BEND = 150.0
-"""How far the joints after the first turn to either side (degrees)."""
+"""Range of the joints after the first to either side (degrees)."""
 
 ROOM = 0.005
 """Clearance that start and goal keep from obstacles, and links from each other (m)."""
@@ -56,7 +56,7 @@ def generated_chain(
 ) -> str:
     """Return scene ``number`` of ``seed`` as YAML, with ``obstacles`` and two tasks that are free at both ends.
 
-    Starts and goals are configurations; nothing says that there is a way between them.
+    Starts and goals are configurations; whether there is a path between them is not checked.
     """
     random = np.random.default_rng([seed, number, links])
     while True:
@@ -92,7 +92,7 @@ def _task(
     widest = BEND * min(1.0, 2.0 / math.sqrt(links))
     drawn = random.uniform(-widest, widest, (TRIES, links))
     drawn[:, 0] = random.uniform(-180.0, 180.0, TRIES)
-    # Rounded before they are judged: what is free is what the file says.
+    # Rounded before they are checked: what is free is what the file says.
     drawn = np.round(drawn, 1) + 0.0
     q = np.radians(drawn)
     clear = np.minimum(scene.link_clearances(q).min(axis=1), scene.self_clearances(q))

@@ -11,7 +11,7 @@ from elbowroom.scene import Scene
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(8)
 PARTS = 64
-"""Each piece is integrated in so many equal parts: where the tip all but stops to turn, its speed has a kink."""
+"""Each piece is integrated in so many equal parts: where the tip all but stops to reverse, its speed has a kink."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The plug-in ``ompl``: planners of the Open Motion Planning Library, judged by elbowroom's verifier."""
+"""The plug-in ``ompl``: planners of the Open Motion Planning Library, checked by elbowroom's verifier."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NEAREST = 1e-6
 
 
 class OmplPlanner:
-    """Plans with OMPL in the space of the joints; its corners become straight turns from stop to stop."""
+    """Plans with OMPL in the space of the joints; its path becomes straight joint motions, at rest at each corner."""
 
     version = f"ompl {version('ompl')}"
 
@@ -43,7 +43,7 @@ class OmplPlanner:
         *,
         seed: int,
         timeout: float | None,
-        budget: int | None,  # noqa: ARG002 (OMPL judges states, not candidate paths)
+        budget: int | None,  # noqa: ARG002 (OMPL checks states, not candidate paths)
         objective: Objective,  # noqa: ARG002 (joint travel is what OMPL's planners make short, where they do)
         algorithm: str = "RRTConnect",
         simplify: bool = True,
@@ -190,7 +190,7 @@ def configurations(scene: Scene, place: Place, posture: str = "any") -> list[Flo
 
 
 def _within(least: float | None, most: float | None, angle: float) -> list[float]:
-    """``angle`` by whole turns as often as the limits have room for it; once without limits."""
+    """``angle`` by whole revolutions as often as the limits have room for it; once without limits."""
     if least is None or most is None:
         return [math.remainder(angle, math.tau)]
     turns = range(math.ceil((least - angle) / math.tau), math.floor((most - angle) / math.tau) + 1)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from elbowroom.compare.row import FAILURES, Row
+from elbowroom.compare.row import FAILURES, NOT_APPLICABLE, Row
 from elbowroom.compare.statistics import Interval
 from elbowroom.compare.summary import (
     METRICS,
@@ -30,6 +30,8 @@ from elbowroom.whole_files import write_whole
 
 MOST_TASKS = 24
 """With more tasks than this each gets a line instead of a section with a picture."""
+
+NA = "not applicable"
 
 ALWAYS = ("tip_length_m", "joint_travel_rad", "duration_s", "least_clearance_m", "time_s")
 """Columns shown even if nobody has a value; the others only if somebody has."""
@@ -62,7 +64,8 @@ def write_report(
 
     if len(summary.tasks) > 1:
         parts += ["## Over all tasks", overall_table(summary), _pairs_of(summary.pairs, "tasks")]
-        parts.append(picture(save(overall_figure(summary), folder / "figures" / "overall.png"), "all tasks"))
+        if any(of.success for of in summary.overall):
+            parts.append(picture(save(overall_figure(summary), folder / "figures" / "overall.png"), "all tasks"))
     if len(summary.tasks) > MOST_TASKS:
         parts += ["## Task by task", _short_table(summary, rows[0].objective)]
     else:
@@ -71,7 +74,8 @@ def write_report(
             stem = folder / "figures" / f"{number:02d}_{_safe(task.scene)}_{_safe(task.task)}"
             words = f"{task.scene}, task {task.task}"
             parts += [f"## {_cell(task.scene)}, task {_cell(task.task)}", task_table(task, rows[0].objective)]
-            parts.append(picture(save(_boxes(task, words), stem.with_name(stem.name + ".png")), words))
+            if any(cell.rows for cell in task.cells):
+                parts.append(picture(save(_boxes(task, words), stem.with_name(stem.name + ".png")), words))
             if curves := _curves(task):
                 meaning = OBJECTIVES[rows[0].objective]
                 figure = convergence(words, f"{meaning.quantity} ({meaning.unit})", curves)
@@ -80,6 +84,7 @@ def write_report(
                 )
             parts += [_pairs_of(task.pairs, "pairs of runs"), _failures(task)]
     parts.append(READING)
+    folder.mkdir(parents=True, exist_ok=True)
     report = write_whole(folder / "report.md", "\n\n".join(part for part in parts if part) + "\n")
     every_pair = [*summary.pairs, *(pair for task in summary.tasks for pair in task.pairs)]
     return [report, write_whole(folder / "pairs.csv", _as_csv(every_pair)), *pictures]
@@ -89,14 +94,16 @@ READING = """## How to read it
 
 - *Success*: the planner handed out a motion that does the task and that the verifier calls safe, with Wilson's 95 %
   interval. *Unsafe* counts motions handed out that are not.
+- *Not applicable*: the planner does not serve this arm, task or setting. Such runs are no failures, and in no test.
 - Medians are over the runs with success, in brackets their 95 % bootstrap interval; a value without brackets is the
   same in every run. The best median of what the objective asks for is bold.
-- *Time* is from the question to the judged motion, on one core; it differs from machine to machine.
+- *Time* is from the question to the verified motion, on one core; it differs from machine to machine.
 - Tests rank runs without success behind all others. On a task: Mann-Whitney over the seeds. Over all tasks: Wilcoxon's
-  signed-rank test over the medians of the tasks. p-values are two-sided; *Holm* is adjusted for all pairs of the table.
+  signed-rank test over the medians of the tasks that both planners serve. p-values are two-sided; *Holm* is adjusted
+  for all pairs of the table.
   *Delta* is Cliff's: -1 if the first planner is always the smaller, 0 if neither, 1 if always the greater.
 - Pictures: a box holds the middle half of the runs with success, the thick line is the median, whiskers reach to the
-  farthest run within one and a half boxes, and every run is a point.
+  farthest run within one and a half boxes, and every run is a point. A diamond stands for runs that are all the same.
 - `rows.jsonl` has every run with what is needed to make it again, `pairs.csv` every test."""
 
 
@@ -156,6 +163,8 @@ def _at_best(task: TaskSummary, metric: Metric, best: float | None) -> str | Non
 
 
 def _success(cell: Cell) -> str:
+    if cell.success is None:
+        return NA
     return f"{len(cell.good)} of {len(cell.rows)} {_percent(cell.success)}"
 
 
@@ -177,17 +186,19 @@ def _interval(interval: Interval | None, metric: Metric) -> str:
 def overall_table(summary: Summary) -> str:
     """Return what the planners came to over all tasks, a line each."""
     header = ["planner", "runs with success (%)", "unsafe", "cost over the task's best", "best on", "time (ms)"]
-    tasks = len(summary.tasks)
     lines = []
     for of in summary.overall:
+        if of.success is None:
+            lines.append([f"`{of.planner}`", NA, *["-"] * 4])
+            continue
         ratio, time = "-", "-"
         if of.ratio is not None:
             ratio = f"{of.ratio.value:.3f} [{of.ratio.low:.3f}, {of.ratio.high:.3f}]"
-            ratio += "" if len(of.ratios) == tasks else f" on {len(of.ratios)} of {tasks}"
+            ratio += "" if len(of.ratios) == of.tasks else f" on {len(of.ratios)} of {of.tasks}"
         if of.time is not None:
             time = _interval(of.time, METRICS[-1])
         success = f"{100 * of.success.value:.1f} [{100 * of.success.low:.1f}, {100 * of.success.high:.1f}]"
-        lines.append([f"`{of.planner}`", success, str(of.unsafe), ratio, f"{of.best_on} of {tasks}", time])
+        lines.append([f"`{of.planner}`", success, str(of.unsafe), ratio, f"{of.best_on} of {of.tasks}", time])
     return markdown_table(header, lines) + (
         "\n\nCost over the best: on each task the planner's median over the least median of any, then the median over "
         "the tasks that it solved."
@@ -203,6 +214,9 @@ def _short_table(summary: Summary, objective: str) -> str:
         values = []
         for planner in planners:
             cell = cells.get(planner)
+            if cell is not None and cell.success is None:
+                values.append("n/a")
+                continue
             if cell is None or (interval := cell.medians[metric.column]) is None:
                 values.append("-")
                 continue
@@ -210,7 +224,10 @@ def _short_table(summary: Summary, objective: str) -> str:
             shown = _interval(Interval(interval.value, interval.value, interval.value), metric)
             values.append((f"**{shown}**" if shown == _best_alone(task, metric) else shown) + some)
         lines.append([_cell(task.scene), _cell(task.task), *values])
-    note = f"Median {metric.title} ({metric.unit}) of the runs with success, and how many they are if not all."
+    note = (
+        f"Median {metric.title} ({metric.unit}) of the runs with success, and how many they are if not all; n/a: the "
+        "planner does not serve the arm or task."
+    )
     return note + "\n\n" + markdown_table(["scene", "task", *(f"`{planner}`" for planner in planners)], lines)
 
 
@@ -223,7 +240,7 @@ def _pairs_of(pairs: Sequence[Pair], what: str) -> str:
     cost = [pair for pair in pairs if pair.metric == "cost"]
     if not cost:
         return ""
-    header = ["first", "second", f"{what}: first cheaper / equal / dearer", "p", "Holm", "delta"]
+    header = ["first", "second", f"{what}: first cheaper / equal / costlier", "p", "Holm", "delta"]
     lines = [
         [
             f"`{pair.first}`",
@@ -243,25 +260,27 @@ def _p(p: float) -> str:
 
 
 def _failures(task: TaskSummary) -> str:
-    lines = []
+    failed, apart = [], []
     for cell in task.cells:
         for failure, count in cell.failures.most_common():
-            example = next(row.message for row in cell.rows if row.failure == failure)
-            lines.append(
-                f"- `{cell.planner}`, {count} of {len(cell.rows)}: {FAILURES[failure]}, such as: {_cell(example or '')}"
-            )
-    return "Without success:\n\n" + "\n".join(lines) if lines else ""
+            of = cell.refused if failure == NOT_APPLICABLE else cell.rows
+            example = _cell(next(row.message for row in of if row.failure == failure) or "")
+            if failure == NOT_APPLICABLE:
+                apart.append(f"- `{cell.planner}`: {example}")
+            else:
+                failed.append(f"- `{cell.planner}`, {count} of {len(of)}: {FAILURES[failure]}, such as: {example}")
+    parts = [("Without success:", failed), ("Not applicable, and in no count or test:", apart)]
+    return "\n\n".join(f"{head}\n\n" + "\n".join(lines) for head, lines in parts if lines)
 
 
 def _boxes(task: TaskSummary, title: str) -> Figure:
+    cells = [cell for cell in task.cells if cell.rows]
     panels: list[Panel | Shares] = [
-        Panel(
-            f"{metric.title} ({metric.unit})", [metric.of(cell.good) for cell in task.cells], metric.column == "time_s"
-        )
+        Panel(f"{metric.title} ({metric.unit})", [metric.of(cell.good) for cell in cells], metric.column == "time_s")
         for metric in METRICS
         if metric.column in ALWAYS
     ]
-    return side_by_side(title, [cell.planner for cell in task.cells], panels)
+    return side_by_side(title, [cell.planner for cell in cells], panels)
 
 
 def overall_figure(summary: Summary) -> Figure:
@@ -271,13 +290,14 @@ def overall_figure(summary: Summary) -> Figure:
         cells = (cell for task in summary.tasks for cell in task.cells if cell.planner == of.planner)
         return [interval.value for cell in cells if (interval := cell.medians["time_s"]) is not None]
 
+    shown = [(of, of.success) for of in summary.overall if of.success is not None]
     panels: list[Panel | Shares] = [
-        Shares("success (%)", [(of.success.value, of.success.low, of.success.high) for of in summary.overall]),
-        Panel("cost over the task's best, a point each", [of.ratios for of in summary.overall]),
-        Panel("median time (ms), a point each", [times(of) for of in summary.overall], logarithmic=True),
+        Shares("success (%)", [(success.value, success.low, success.high) for _, success in shown]),
+        Panel("cost over the task's best", [of.ratios for of, _ in shown]),
+        Panel("median time (ms)", [times(of) for of, _ in shown], logarithmic=True),
     ]
-    title = f"over {len(summary.tasks)} tasks"
-    return side_by_side(title, [of.planner for of in summary.overall], panels)
+    title = f"over {len(summary.tasks)} tasks, a point each"
+    return side_by_side(title, [of.planner for of, _ in shown], panels)
 
 
 def _curves(task: TaskSummary) -> dict[str, list[Curve]]:

@@ -44,6 +44,9 @@ FAILURES: dict[str, str] = {
 }
 """What can become of a run instead of success."""
 
+NOT_APPLICABLE: Failure = "refused"
+"""Such a run was never in the race: it counts neither as success nor as failure, and takes part in no test."""
+
 MEASURED = ("time_s", "stages_s")
 """Columns that no two runs share; in all others the same run gives the same row."""
 
@@ -121,12 +124,12 @@ class Row(Problem, frozen=True, kw_only=True, forbid_unknown_fields=True):
         joint_travel_rad: Length of the curve in the space of the joints.
         duration_s: How long the motion takes.
         least_clearance_m: The nearest that a link comes to an obstacle, or to a link it has to keep clear of.
-        evaluations: Candidates that the planner judged, where it counts them.
+        evaluations: Candidates that the planner evaluated, where it counts them.
         lower_bound: No motion costs less.
         gap: How far ``cost`` may be above the best, as a share of it.
         failure: A key of ``FAILURES``.
         message: The failure in words.
-        time_s: From the question to the judged motion, or to the failure.
+        time_s: From the question to the verified motion, or to the failure.
         stages_s: The same by stage, as far as the planner tells.
         convergence: Evaluations made and the best cost by then.
     """
@@ -193,6 +196,11 @@ class Row(Problem, frozen=True, kw_only=True, forbid_unknown_fields=True):
             return msgspec.convert(read, cls)
         except msgspec.ValidationError as error:
             raise DamagedRow(_in_words(str(error))) from None
+
+    @property
+    def applicable(self) -> bool:
+        """Whether the planner serves the arm, task and settings of the run."""
+        return self.failure != NOT_APPLICABLE
 
     @property
     def lasting(self) -> dict[str, Any]:

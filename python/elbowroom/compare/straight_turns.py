@@ -1,4 +1,4 @@
-"""Times a path of straight turns of the joints, from stop to stop, as fast as the motion limits allow."""
+"""Times a path of straight joint motions, at rest at each corner, as fast as the motion limits allow."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def straight_turns(
 ) -> Proposal:
     """Return the path through ``corners`` as a trajectory: for plug-ins whose planners know no time.
 
-    Every turn is a quintic at rest at both ends, so the joints move along straight lines, and lasts whole ticks of
-    10 ms. Motion limits that the scene does not state are assumed, the same as for elbowroom's own planners.
+    Every straight joint motion is a quintic at rest at both ends, so the joints move along straight lines, and lasts
+    whole ticks of 10 ms. Motion limits that the scene does not state are assumed, as for elbowroom's own planners.
 
     Args:
         scene: Its arm has the motion limits.

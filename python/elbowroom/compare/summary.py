@@ -61,11 +61,20 @@ METRICS = (
 
 @dataclass(frozen=True)
 class Cell:
-    """A planner on a task: its runs, and their medians over those with success."""
+    """A planner on a task: its runs, and their medians over those with success.
+
+    Attributes:
+        planner: Its label.
+        rows: The runs that it could be asked for; none where it does not serve the arm or task.
+        refused: The runs that do not apply to it.
+        success: Share of ``rows``; None if there are none.
+        medians: By column.
+    """
 
     planner: str
     rows: Sequence[Row]
-    success: Interval
+    refused: Sequence[Row]
+    success: Interval | None
     medians: dict[str, Interval | None]
 
     @property
@@ -81,7 +90,7 @@ class Cell:
     @property
     def failures(self) -> Counter[str]:
         """How often it failed in which way."""
-        return Counter(row.failure for row in self.rows if row.failure is not None)
+        return Counter(row.failure for row in (*self.rows, *self.refused) if row.failure is not None)
 
 
 @dataclass(frozen=True)
@@ -140,7 +149,8 @@ class Overall:
     """A planner over all tasks.
 
     Attributes:
-        success: Share of all its runs.
+        tasks: How many tasks it serves.
+        success: Share of its runs on those; None if it serves none.
         unsafe: Motions that the verifier does not call safe.
         ratio: Median over the tasks of its cost over the best planner's on the same task; None if it solved none.
         ratios: The same task by task, where it solved one.
@@ -149,7 +159,8 @@ class Overall:
     """
 
     planner: str
-    success: Interval
+    tasks: int
+    success: Interval | None
     unsafe: int
     ratio: Interval | None
     ratios: Sequence[float]
@@ -187,19 +198,22 @@ def _scene_names(rows: Sequence[Row]) -> dict[str, str]:
 def _of_task(scene: str, task: str, planners: Sequence[str], rows: Sequence[Row]) -> TaskSummary:
     cells = []
     for planner in planners:
-        own = [row for row in rows if row.planner == planner]
-        if not own:
+        asked = [row for row in rows if row.planner == planner]
+        if not asked:
             continue
+        own = [row for row in asked if row.applicable]
+        refused = [row for row in asked if not row.applicable]
         good = [row for row in own if row.success]
         medians = {
             metric.column: median_interval(values, seed=SEED) if (values := metric.of(good)) else None
             for metric in METRICS
         }
-        cells.append(Cell(planner, own, wilson_interval(len(good), len(own)), medians))
+        cells.append(Cell(planner, own, refused, wilson_interval(len(good), len(own)) if own else None, medians))
     pairs: list[Pair] = []
     for metric in COMPARED:
-        samples = {cell.planner: _ranked(cell.rows, metric) for cell in cells}
-        pairs += _pairs(metric, scene, task, samples, "Mann-Whitney", mann_whitney, cliffs_delta)
+        samples = {cell.planner: _ranked(cell.rows, metric) for cell in cells if cell.rows}
+        matches = [(first, second, samples[first], samples[second]) for first, second in combinations(samples, 2)]
+        pairs += _pairs(metric, scene, task, matches, "Mann-Whitney", mann_whitney, cliffs_delta)
     return TaskSummary(scene, task, cells, pairs)
 
 
@@ -211,20 +225,26 @@ def _ranked(rows: Sequence[Row], metric: str) -> list[float]:
 def _over_tasks(planners: Sequence[str], tasks: Sequence[TaskSummary]) -> list[Pair]:
     pairs: list[Pair] = []
     for metric in COMPARED:
-        medians = {
-            planner: [
-                float(np.median(_ranked(cell.rows, metric)))
-                for task in tasks
-                for cell in task.cells
-                if cell.planner == planner
-            ]
-            for planner in planners
-        }
-        # Differences of logarithms: a metre more on a long task is less than on a short one.
-        logs = {planner: [math.log(x) if x > 0 else -math.inf for x in of] for planner, of in medians.items()}
-        whole = {planner: of for planner, of in logs.items() if len(of) == len(tasks)}
-        pairs += _pairs(metric, None, None, whole, "signed-rank", signed_rank, _paired_delta)
+        medians = {planner: _medians(planner, tasks, metric) for planner in planners}
+        matches: list[Match] = []
+        for first, second in combinations(planners, 2):
+            a, b = medians[first], medians[second]
+            if shared := [place for place in a if place in b]:
+                matches.append((first, second, [a[place] for place in shared], [b[place] for place in shared]))
+        pairs += _pairs(metric, None, None, matches, "signed-rank", signed_rank, _paired_delta)
     return pairs
+
+
+def _medians(planner: str, tasks: Sequence[TaskSummary], metric: str) -> dict[int, float]:
+    """Of each task that ``planner`` serves, by its place among ``tasks``."""
+    found = {}
+    for place, task in enumerate(tasks):
+        for cell in task.cells:
+            if cell.planner == planner and cell.rows:
+                median = float(np.median(_ranked(cell.rows, metric)))
+                # Differences of logarithms: a metre more on a long task is less than on a short one.
+                found[place] = math.log(median) if median > 0 else -math.inf
+    return found
 
 
 def _paired_delta(first: Sequence[float], second: Sequence[float]) -> float:
@@ -235,18 +255,21 @@ def _difference(a: float, b: float) -> float:
     return 0.0 if a == b else a - b
 
 
+Match = tuple[str, str, Sequence[float], Sequence[float]]
+"""Two planners and the values that are compared."""
+
+
 def _pairs(
     metric: str,
     scene: str | None,
     task: str | None,
-    samples: dict[str, list[float]],
+    matches: Sequence[Match],
     test: str,
     p_value: Callable[[Sequence[float], Sequence[float]], float],
     effect: Callable[[Sequence[float], Sequence[float]], float],
 ) -> list[Pair]:
     found = []
-    for first, second in combinations(samples, 2):
-        a, b = samples[first], samples[second]
+    for first, second, a, b in matches:
         couples = list(zip(a, b, strict=True)) if scene is None else [(x, y) for x in a for y in b]
         less, greater = sum(x < y for x, y in couples), sum(x > y for x, y in couples)
         counts = (less, len(couples) - less - greater, greater)
@@ -259,7 +282,7 @@ def _pairs(
 
 
 def _overall(planner: str, tasks: Sequence[TaskSummary]) -> Overall:
-    cells = [(task, cell) for task in tasks for cell in task.cells if cell.planner == planner]
+    cells = [(task, cell) for task in tasks for cell in task.cells if cell.planner == planner and cell.rows]
     runs = sum(len(cell.rows) for _, cell in cells)
     ratios, best_on = [], 0
     for task, cell in cells:
@@ -272,7 +295,8 @@ def _overall(planner: str, tasks: Sequence[TaskSummary]) -> Overall:
     times = [interval.value for _, cell in cells if (interval := cell.medians["time_s"]) is not None]
     return Overall(
         planner,
-        wilson_interval(sum(len(cell.good) for _, cell in cells), runs),
+        len(cells),
+        wilson_interval(sum(len(cell.good) for _, cell in cells), runs) if runs else None,
         sum(cell.unsafe for _, cell in cells),
         median_interval(ratios, seed=SEED) if ratios else None,
         ratios,

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from elbowroom.figures.style import COLOURS, DASHES, INK
 
@@ -34,9 +34,12 @@ class Shares:
 
 
 def side_by_side(title: str, planners: Sequence[str], panels: Sequence[Panel | Shares]) -> Figure:
-    """Return a figure with ``planners`` as rows, the same in every panel: boxes with all values as points on them."""
+    """Return a figure with ``planners`` as rows, the same in every panel: boxes with all values as points on them,
+    a diamond where all values are one.
+    """
     widest = max(map(len, planners))
-    figure = Figure(figsize=(0.08 * widest + 2.3 * len(panels), 1.15 + 0.42 * len(planners)), layout="constrained")
+    width = 0.08 * widest + 2.5 * len(panels)
+    figure = Figure(figsize=(width, 1.15 + 0.42 * max(len(planners), 3)), layout="constrained")
     figure.suptitle(title, fontsize=11)
     first: Axes | None = None
     for i, panel in enumerate(panels):
@@ -61,6 +64,10 @@ def _draw_boxes(axes: Axes, panel: Panel) -> None:
         if not len(values):
             continue
         colour = COLOURS[place % len(COLOURS)]
+        if min(values) == max(values):
+            # A box without height would be a bare line.
+            axes.plot(values[0], place, "D", color=colour, markeredgecolor=INK, markersize=7, linestyle="none")
+            continue
         axes.boxplot(
             [values],
             positions=[place],
@@ -77,10 +84,12 @@ def _draw_boxes(axes: Axes, panel: Panel) -> None:
         # Spread evenly by order, not at random: the same rows give the same picture.
         heights = place + 0.2 * ((np.arange(len(values)) * 0.618) % 1.0 - 0.5)
         axes.plot(values, heights, ".", color=INK, markersize=3, alpha=0.6, linestyle="none")
+    if not panel.logarithmic:
+        axes.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     if panel.logarithmic and any(len(values) for values in panel.values):
         axes.set_xscale("log")
         every = [value for values in panel.values for value in values]
-        subs = (1.0, 2.0, 5.0) if max(every) <= 100.0 * min(every) else (1.0,)
+        subs = (1.0, 2.0, 5.0) if max(every) <= 20.0 * min(every) else (1.0, 3.0)
         axes.xaxis.set_major_locator(LogLocator(subs=subs))
         axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _place: f"{value:g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())
@@ -98,7 +107,8 @@ def _draw_shares(axes: Axes, panel: Shares) -> None:
             markersize=7,
             clip_on=False,
         )
-    axes.set_xlim(-3.0, 103.0)
+    axes.set_xlim(-6.0, 106.0)
+    axes.set_xticks([0.0, 25.0, 50.0, 75.0, 100.0])
 
 
 def convergence(title: str, label: str, curves: Mapping[str, Sequence[Curve]]) -> Figure:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import cycle, islice
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,15 +10,12 @@ from matplotlib.figure import Figure
 
 from elbowroom._core import Plan
 from elbowroom.errors import BadSetting
+from elbowroom.figures.links import link_colours
 from elbowroom.figures.style import (
-    CM,
-    COLOURS,
     DASHES,
     INK,
-    LINK_1,
-    LINK_2,
+    MOTION,
     PATH,
-    SMOOTHED,
     legend_beside,
     new_figure,
 )
@@ -32,10 +29,8 @@ ROWS = 12
 
 
 def joint_lines(joints: int) -> list[tuple[str, str]]:
-    """Return a colour and a dash for each joint; all differ for up to 28."""
-    if joints == 2:
-        return [(LINK_1, "-"), (LINK_2, "--")]
-    return list(islice(zip(cycle(COLOURS), cycle(DASHES), strict=False), joints))
+    """Return a colour and a dash for each joint: the colour is that of its link, neighbours differ in dash too."""
+    return list(zip(link_colours(joints), cycle(DASHES), strict=False))
 
 
 def tip_curve(plan: AnyPlan, *, of: str) -> Figure:
@@ -44,9 +39,10 @@ def tip_curve(plan: AnyPlan, *, of: str) -> Figure:
     Raises:
         BadSetting: There is no such curve.
     """
-    tips = {"x": ("x of the tip (cm)", PATH), "y": ("y of the tip (cm)", SMOOTHED)}
+    units = plan.scene.units
+    tips = {axis: (f"{axis} of the tip ({units.length})", colour) for axis, colour in (("x", PATH), ("y", MOTION))}
     lines = joint_lines(len(plan.scene.arm.joints))
-    angles = {f"theta {j}": (f"theta {j} (deg)", colour) for j, (colour, _) in enumerate(lines, 1)}
+    angles = {f"theta {j}": (f"theta {j} ({units.angle})", colour) for j, (colour, _) in enumerate(lines, 1)}
     if of not in tips | angles:
         raise BadSetting(f"no curve is called '{of}'; x, y, theta 1 to theta {len(angles)}", setting="of")
     label, colour = (tips | angles)[of]
@@ -82,18 +78,19 @@ def joint_curves(plan: AnyPlan) -> Figure:
     t = np.linspace(0.0, plan.motion.duration, 4001)
     samples = plan.at(t)
     panels = (
-        (samples.q, "position (deg)", "position"),
-        (samples.v, "velocity (deg/s)", "velocity"),
-        (samples.a, "acceleration (deg/s²)", "acceleration"),
-        (samples.j, "jerk (deg/s³)", "jerk"),
+        (samples.q, "position"),
+        (samples.v, "velocity"),
+        (samples.a, "acceleration"),
+        (samples.j, "jerk"),
     )
-    for i, (values, label, rate) in enumerate(panels):
+    for i, (values, rate) in enumerate(panels):
         axes = figure.add_subplot(4, 1, i + 1)
         for j, (colour, dash) in enumerate(joint_lines(joints)):
-            name = f"joint {j + 1}" if i == 0 else None
-            axes.plot(t, np.degrees(values[:, j]), color=colour, linestyle=dash, label=name)
+            free = " (continuous)" if plan.scene.arm.joints[j].continuous else ""
+            name = f"joint {j + 1}{free}" if i == 0 else None
+            axes.plot(t, values[:, j] * plan.scene.units.per_radian, color=colour, linestyle=dash, label=name)
         _draw_limits(axes, plan, rate)
-        axes.set_ylabel(label)
+        axes.set_ylabel(f"{rate} ({plan.scene.units.rate_unit(i)})")
         axes.set_xlim(0.0, plan.motion.duration or 1.0)
         axes.grid(alpha=0.3)
         if axes.get_legend_handles_labels()[0]:
@@ -115,7 +112,7 @@ def _draw_limits(axes: Axes, plan: AnyPlan, rate: str) -> None:
         whose = numbered("joint", [j + 1 for j in alike])
         for k, value in enumerate(values):
             axes.axhline(
-                np.degrees(value),
+                value * plan.scene.units.per_radian,
                 color=lines[alike[0]][0] if len(alike) == 1 else INK,
                 linewidth=1.0,
                 linestyle=":" if assumed else (0, (6, 2)),
@@ -128,7 +125,7 @@ def _limits(plan: AnyPlan, j: int, rate: str) -> tuple[list[float], bool]:
     """The limits of joint ``j`` on ``rate``, and whether they were assumed."""
     joint: Joint = plan.scene.arm.joints[j]
     if rate == "position":
-        return [stop for stop in (joint.min, joint.max) if stop is not None], False
+        return [limit for limit in (joint.min, joint.max) if limit is not None], False
     stated = getattr(joint, rate)
     if stated is not None:
         return [-stated, stated], False
@@ -141,7 +138,7 @@ def _limits(plan: AnyPlan, j: int, rate: str) -> tuple[list[float], bool]:
 def _values(plan: AnyPlan, of: str, t: Floats) -> Floats:
     samples = plan.at(t)
     if of in ("x", "y"):
-        values: Floats = samples.tip[:, "xy".index(of)] * CM
+        values: Floats = samples.tip[:, "xy".index(of)] * plan.scene.units.per_metre
         return values
-    angles: Floats = np.degrees(samples.q[:, int(of.removeprefix("theta ")) - 1])
+    angles: Floats = samples.q[:, int(of.removeprefix("theta ")) - 1] * plan.scene.units.per_radian
     return angles

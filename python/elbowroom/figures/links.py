@@ -11,7 +11,9 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
-from elbowroom.figures.style import CM, INK, LINK_1, LINK_2
+from elbowroom._core import Clearance
+from elbowroom.figures.style import INK, LINK_1, LINK_2
+from elbowroom.outlines import distances_to_lines
 from elbowroom.samples import Floats
 from elbowroom.scene import Scene
 
@@ -20,6 +22,9 @@ SHADES = ("viridis", 0.1, 0.82)
 
 MOST_NAMED = 12
 """With more links than this not every one is in the legend."""
+
+SAMPLES = 401
+"""Points of a link among which the nearest to an obstacle is sought."""
 
 ROUND = 16
 """Corners that stand for half a circle."""
@@ -44,9 +49,11 @@ def link_legend(scene: Scene) -> list[Line2D]:
 
 
 def segments(scene: Scene, link_ends: Floats) -> Floats:
-    """Return the links as segments (cm), base first, shape ``(..., links, 2, 2)``, from where they end (m)."""
+    """Return the links as segments in the unit of ``scene``, base first, shape ``(..., links, 2, 2)``, from where they
+    end (m).
+    """
     base = np.broadcast_to(np.asarray(scene.arm.base, dtype=np.float64), (*link_ends.shape[:-2], 1, 2))
-    ends = np.concatenate([base, link_ends], axis=-2) * CM
+    ends = np.concatenate([base, link_ends], axis=-2) * scene.units.per_metre
     joined: Floats = np.stack([ends[..., :-1, :], ends[..., 1:, :]], axis=-2)
     return joined
 
@@ -61,25 +68,47 @@ def capsule(segment: Floats, half_width: float) -> Floats:
     return outline
 
 
-def draw_stills(axes: Axes, scene: Scene, link_ends: Floats) -> None:
-    """Draw the arm at instants, shape ``(n, links, 2)`` (m), darker with time; bodies as wide as they are."""
+def draw_stills(axes: Axes, scene: Scene, link_ends: Floats, *, poses: Floats) -> None:
+    """Draw the arm at instants, shape ``(n, links, 2)`` (m), as lines that get darker with time, and in ``poses``,
+    of the same shape, with its bodies and joints.
+    """
     colours = [to_rgb(colour) for colour in link_colours(len(scene.arm.links))]
     stills = segments(scene, link_ends)
-    strengths = np.linspace(0.25, 1.0, len(stills))
-    lines = [segment for still in stills for segment in still]
+    strengths = np.linspace(0.2, 0.9, len(stills))
     axes.add_collection(
         LineCollection(
-            lines,
+            [segment for still in stills for segment in still],
             colors=[(*colour, strength) for strength in strengths for colour in colours],
-            linewidths=1.6,
+            linewidths=1.1,
             capstyle="round",
             zorder=4,
         )
     )
+    drawn = segments(scene, poses)
     if scene.arm.half_width > 0.0:
-        bodies = [capsule(segment, scene.arm.half_width * CM) for segment in lines]
-        fills = [(*colour, 0.16 * strength) for strength in strengths for colour in colours]
-        axes.add_collection(PolyCollection(bodies, facecolors=fills, edgecolors="none", zorder=3.5))
+        half_width = scene.arm.half_width * scene.units.per_metre
+        bodies = [capsule(segment, half_width) for pose in drawn for segment in pose]
+        fills = [(*colour, 0.35) for colour in colours]
+        axes.add_collection(PolyCollection(bodies, facecolors=fills, edgecolors=colours, linewidths=0.8, zorder=4.5))
+    for pose in drawn:
+        for segment, colour in zip(pose, colours, strict=True):
+            axes.plot(*segment.T, color=colour, linewidth=2.6, zorder=4.6, solid_capstyle="round")
+        joints = pose[1:, 0]
+        axes.plot(*joints.T, "o", color="white", markeredgecolor=INK, markersize=4, zorder=4.7, linestyle="none")
+
+
+def nearest_place(scene: Scene, link_ends: Floats, clearance: Clearance) -> Floats:
+    """Return the place on the link's line (m) that is nearest to what ``clearance`` is from, the arm's links ending at
+    ``link_ends``, shape ``(links, 2)`` (m).
+    """
+    joints = np.vstack([scene.arm.base, link_ends])
+    link = np.linspace(joints[clearance.link - 1], joints[clearance.link], SAMPLES)
+    if clearance.other_link is not None:
+        other = joints[clearance.other_link - 1 : clearance.other_link + 1]
+    else:
+        other = np.array(scene.obstacles[clearance.obstacle or 0].outline[0])
+    place: Floats = link[int(np.argmin(distances_to_lines(link, other)))]
+    return place
 
 
 class DrawnArm:
@@ -87,7 +116,7 @@ class DrawnArm:
 
     def __init__(self, axes: Axes, scene: Scene) -> None:
         self._scene = scene
-        self._half_width = scene.arm.half_width * CM
+        self._half_width = scene.arm.half_width * scene.units.per_metre
         self._strokes: list[Line2D] = []
         self._bodies: list[Polygon] = []
         for colour in link_colours(len(scene.arm.links)):

@@ -1,5 +1,5 @@
-"""How pictures look: one palette (Okabe and Ito, told apart by colour-blind readers), one unit, one way to draw a
-scene.
+"""How pictures look: one palette, whose pairs that meet are told apart by colour-blind readers and in grey print (a
+test measures it), the units of the scene, one way to draw a scene.
 """
 
 from __future__ import annotations
@@ -7,34 +7,44 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from pathlib import Path
+from textwrap import fill
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle as CirclePatch
 from matplotlib.patches import Polygon as PolygonPatch
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
 
+from elbowroom.outlines import middle
+from elbowroom.samples import Floats
 from elbowroom.scene import Outline, Pair, Scene
 from elbowroom.whole_files import written_whole
 
-CM = 100.0
-"""Pictures show centimetres, as the paper does."""
-
-LINK_1 = "#D55E00"
-LINK_2 = "#009E73"
+LINK_1 = "#B13F00"
+LINK_2 = "#35B98A"
 PATH = "#0072B2"
-SMOOTHED = "#CC79A7"
+MOTION = "#08306B"
 START = "#E69F00"
-GOAL = "#56B4E9"
+GOAL = "#F0E442"
 OBSTACLE = "#404040"
 FREE = "#9CCDE8"
 LIMIT = "#F6E3B4"
-COLLISION = "#D9A5C2"
+LIMIT_LINE = "#8C510A"
+COLLISION = "#6E6E6E"
+COLLISION_2 = "#A0A0A0"
+"""Of link 2, where the links are told apart."""
 OUT_OF_REACH = "#F2F2F2"
 INK = "#222222"
 
-COLOURS = (PATH, START, LINK_2, SMOOTHED, GOAL, LINK_1, "#999999")
-"""For many curves beside each other: in this order neighbours differ most in lightness too."""
+HATCH = "////"
+HATCH_LINE = "#C4C4C4"
+"""Over what is forbidden, for whoever sees no colours."""
+
+COLOURS = (PATH, START, "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#999999")
+"""For many curves beside each other (Okabe and Ito): in this order neighbours differ most in lightness too."""
 
 DASHES = ("-", "--", ":", "-.")
 """To go with colours: seven of those and four of these make 28 kinds of lines."""
@@ -43,7 +53,16 @@ WALL = 1.2
 """Width of the line that stands for a wall without thickness (points)."""
 
 ARC = math.radians(5.0)
-"""Turn from one corner to the next where corners stand for something round."""
+"""Angle from one corner to the next where corners stand for something round."""
+
+WIDEST_LABEL = 26
+"""Letters in a line of a legend."""
+
+LONGEST_NAME = 12
+"""Letters of a name that is written beside an obstacle's number; texts have longer ones."""
+
+MOST_NUMBERED = 60
+"""With more obstacles than this none is numbered: the numbers would cover each other."""
 
 LONGEST_LEGEND = 16
 """A legend with more entries gets another column."""
@@ -55,35 +74,80 @@ def new_figure(width: float = 6.4, height: float = 5.2) -> tuple[Figure, Axes]:
     return figure, figure.add_subplot()
 
 
-def plane(title: str, scene: Scene) -> tuple[Figure, Axes]:
+def plane(title: str, scene: Scene, *, moving: bool = True) -> tuple[Figure, Axes]:
     """Return a figure of the plane of ``scene``'s grid, both axes in the same scale, the obstacles as large as they
-    are.
+    are, with those that are ``moving`` or without.
     """
-    figure, axes = new_figure(width=7.2)
+    figure, axes = new_figure(width=7.6)
     axes.set_aspect("equal")
-    axes.set_xlim(scene.grid.x[0] * CM, scene.grid.x[1] * CM)
-    axes.set_ylim(scene.grid.y[0] * CM, scene.grid.y[1] * CM)
-    axes.set_xlabel("x (cm)")
-    axes.set_ylabel("y (cm)")
+    axes.set_xlim(*_shown(scene, scene.grid.x))
+    axes.set_ylim(*_shown(scene, scene.grid.y))
+    axes.set_xlabel(f"x ({scene.units.length})")
+    axes.set_ylabel(f"y ({scene.units.length})")
     axes.set_title(title, fontsize=11)
-    draw_obstacles(axes, scene)
+    draw_obstacles(axes, scene, moving=moving)
     return figure, axes
 
 
-def draw_obstacles(axes: Axes, scene: Scene) -> None:
-    """Draw the obstacles of ``scene``."""
-    for i, obstacle in enumerate(scene.obstacles):
-        label = "obstacle" if i == 0 else None
+def _shown(scene: Scene, place: Pair) -> Pair:
+    """A pair of lengths (m) as ``scene``'s pictures show it."""
+    return place[0] * scene.units.per_metre, place[1] * scene.units.per_metre
+
+
+def coordinates(scene: Scene, points: Floats) -> tuple[Floats, Floats]:
+    """Return x and y of ``points``, shape ``(n, 2)`` (m), as ``scene``'s pictures show them."""
+    return points[:, 0] * scene.units.per_metre, points[:, 1] * scene.units.per_metre
+
+
+def draw_obstacles(axes: Axes, scene: Scene, *, moving: bool = True) -> None:
+    """Draw the obstacles of ``scene``, each with its number, from 1, and its name."""
+    scale = scene.units.per_metre
+    drawn = [(i, obstacle) for i, obstacle in enumerate(scene.obstacles) if moving or obstacle.motion is None]
+    for i, obstacle in drawn:
+        label = "obstacle" if i == drawn[0][0] else None
         points, radius = obstacle.outline
         if len(points) == 1:
-            center = (points[0][0] * CM, points[0][1] * CM)
+            center = _shown(scene, points[0])
             axes.add_patch(
-                CirclePatch(center, radius * CM, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
+                CirclePatch(center, radius * scale, facecolor=OBSTACLE, edgecolor="none", zorder=3, label=label)
             )
         else:
-            corners = [(x * CM, y * CM) for x, y in corners_of(obstacle.outline)]
+            corners = [_shown(scene, corner) for corner in corners_of(obstacle.outline)]
             look = {"edgecolor": OBSTACLE, "linewidth": WALL} if len(corners) == 2 else {"edgecolor": "none"}
             axes.add_patch(PolygonPatch(corners, closed=True, facecolor=OBSTACLE, zorder=3, label=label, **look))
+    if len(drawn) <= MOST_NUMBERED:
+        for i, obstacle in drawn:
+            x, y = middle(obstacle)
+            number(axes, _shown(scene, (x, y)), obstacle_label(i, obstacle.name))
+
+
+def obstacle_label(index: int, name: str | None) -> str:
+    """Return what pictures write beside the obstacle at ``index``: its number, from 1, and a name if short."""
+    return f"{index + 1}" if name is None or len(name) > LONGEST_NAME else f"{index + 1} {name}"
+
+
+def number(axes: Axes, place: Pair, text: str) -> None:
+    """Write ``text`` at ``place``, readable over anything."""
+    written = axes.text(*place, text, ha="center", va="center", fontsize=8, color=INK, zorder=7, clip_on=True)
+    written.set_path_effects([withStroke(linewidth=2.5, foreground="white")])
+
+
+def hatch(axes: Axes, mask: NDArray[np.bool_], extent: tuple[float, float, float, float], *, colour: str) -> None:
+    """Hatch with lines of ``colour`` where ``mask`` holds, rows from bottom to top.
+
+    Args:
+        axes: Where to.
+        mask: What is hatched.
+        extent: Left, right, bottom and top of it.
+        colour: Of the lines.
+    """
+    left, right, bottom, top = extent
+    rows, columns = mask.shape
+    if mask.any() and rows > 1 and columns > 1:
+        x, y = np.linspace(left, right, columns), np.linspace(bottom, top, rows)
+        hatched = axes.contourf(x, y, mask, levels=[0.5, 1.5], colors="none", hatches=[HATCH], zorder=1.2)
+        hatched.set_edgecolor(colour)
+        hatched.set_linewidth(0.0)
 
 
 def corners_of(outline: Outline) -> Sequence[Pair]:
@@ -106,27 +170,31 @@ def corners_of(outline: Outline) -> Sequence[Pair]:
     return corners
 
 
-def mark_ends(axes: Axes, start: tuple[float, float], goal: tuple[float, float]) -> None:
+def mark_ends(axes: Axes, scene: Scene, start: Pair, goal: Pair) -> None:
     """Mark start and goal (m)."""
-    for (x, y), marker, colour, label in ((start, "o", START, "start"), (goal, "*", GOAL, "goal")):
-        axes.plot(
-            x * CM,
-            y * CM,
-            marker,
-            color=colour,
-            markeredgecolor=INK,
-            markersize=9 if marker == "o" else 14,
-            linestyle="none",
-            zorder=6,
-            label=label,
-        )
+    mark_start(axes, [_shown(scene, start)])
+    mark_goal(axes, [_shown(scene, goal)])
+
+
+def mark_start(axes: Axes, places: Sequence[Pair]) -> None:
+    """Mark starts, in the coordinates of the picture."""
+    _mark(axes, places, "o", START, 9, "start")
+
+
+def mark_goal(axes: Axes, places: Sequence[Pair]) -> None:
+    """Mark goals, in the coordinates of the picture."""
+    _mark(axes, places, "*", GOAL, 14, "goal")
+
+
+def _mark(axes: Axes, places: Sequence[Pair], marker: str, colour: str, size: int, label: str) -> None:
+    look = {"color": colour, "markeredgecolor": INK, "markersize": size, "linestyle": "none", "zorder": 6}
+    axes.plot(*zip(*places, strict=True), marker, label=label, **look)  # type: ignore[arg-type]
 
 
 def mark_base(axes: Axes, scene: Scene) -> None:
     """Mark the base of the arm."""
     axes.plot(
-        scene.arm.base[0] * CM,
-        scene.arm.base[1] * CM,
+        *_shown(scene, scene.arm.base),
         "s",
         color=INK,
         markersize=6,
@@ -143,6 +211,7 @@ def legend_beside(
     after: Sequence[Artist] = (),
     size: int = 9,
     rows: int = LONGEST_LEGEND,
+    title: str | None = None,
 ) -> None:
     """Put the legend outside, where it hides nothing, in columns of at most so many rows.
 
@@ -152,22 +221,31 @@ def legend_beside(
         after: Artists that come last.
         size: Of the letters (points).
         rows: Most of them in a column.
+        title: Above it.
     """
     handles = [*before, *axes.get_legend_handles_labels()[0], *after]
     axes.legend(
         handles,
-        [str(handle.get_label()) for handle in handles],
+        [_wrapped(str(handle.get_label())) for handle in handles],
         loc="upper left",
         bbox_to_anchor=(1.01, 1.0),
         borderaxespad=0.0,
         fontsize=size,
         frameon=False,
         ncols=-(-len(handles) // rows) or 1,
+        title=title,
+        alignment="left",
     )
 
 
-def save(figure: Figure, path: Path) -> Path:
+def _wrapped(label: str) -> str:
+    """``label`` in lines that a legend has room for."""
+    return "\n".join(fill(line, WIDEST_LABEL) for line in label.split("\n"))
+
+
+def save(figure: Figure, path: str | Path) -> Path:
     """Write ``figure`` to ``path`` and return it."""
+    path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     with written_whole(path) as fresh:
         figure.savefig(fresh, dpi=120, metadata={"Software": None} if path.suffix == ".png" else None)

@@ -11,7 +11,7 @@ from elbowroom.samples import Floats
 
 def clearances(followed: Followed) -> dict[str, Floats]:
     """Return the arm's clearance over the samples from each obstacle that moves, by what it is called, and from those
-    that stand still together (m).
+    that are static together (m).
     """
     scene, samples = followed.true_scene, followed.samples
     still = [obstacle for obstacle in scene.obstacles if obstacle.motion is None]
@@ -26,5 +26,5 @@ def clearances(followed: Followed) -> dict[str, Floats]:
                 ]
             )
     if still:
-        found["standing obstacles"] = scene.replace(obstacles=still).link_clearances(samples.q).min(axis=1)
+        found["static obstacles"] = scene.replace(obstacles=still).link_clearances(samples.q).min(axis=1)
     return found

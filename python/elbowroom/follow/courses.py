@@ -23,19 +23,12 @@ def shifts(motion: ObstacleMotion | None, t: Floats) -> Floats:
 
 
 def shifted(obstacle: Obstacle, by: Pair) -> Obstacle:
-    """Return ``obstacle`` standing still, shifted by so much (m)."""
+    """Return ``obstacle`` as a static one, offset by so much (m)."""
     return obstacle.shifted(by).replace(motion=None)
 
 
-def middle(obstacle: Obstacle) -> Floats:
-    """Return the middle of ``obstacle`` where the scene has it (m)."""
-    corners = np.array(obstacle.outline[0])
-    centre: Floats = (corners.min(axis=0) + corners.max(axis=0)) / 2.0
-    return centre
-
-
 def as_recorded(scene: Scene, recorded: Mapping[int, Sequence[tuple[float, Pair]]]) -> Scene:
-    """Return ``scene`` with obstacles on the ways that were ``recorded``: times (s) and shifts (m), by their place."""
+    """Return ``scene`` with obstacles on the trajectories ``recorded``: times (s) and offsets (m), by their index."""
     obstacles = list(scene.obstacles)
     for index, points in recorded.items():
         motion = ObstacleMotion(waypoints=_without_needless(points))

@@ -41,7 +41,7 @@ class Followed:
 
     Attributes:
         scene: As it was given.
-        true_scene: The same with the ways that obstacles which chase really took.
+        true_scene: The same with the trajectories that pursuing obstacles really took.
         task: Which one of the scene.
         rate: Updates a second (Hz).
         horizon: How long the arm had (s).

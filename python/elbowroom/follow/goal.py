@@ -1,4 +1,4 @@
-"""Where a task ends, looked at apart from the planner."""
+"""Where a task ends, computed independently of the planner."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ MOST_RECORDED = 10_000
 """Way-points that a course has at most; one that chases gets one a step."""
 
 LONGEST_ROW = 10
-"""Samples of what was followed are at most so far apart (ms); the joints' polynomials begin and end at whole ones."""
+"""Samples of the executed motion are at most so far apart (ms); the joints' polynomials begin and end at whole ones."""
 
 
 def follow(

@@ -8,7 +8,7 @@ Pair = tuple[float, float]
 
 
 def octile(start: Pair, goal: Pair) -> float:
-    """Return the least cost of an eight-neighbour grid path with nothing in its way (same unit)."""
+    """Return the least cost of an eight-neighbour grid path without obstacles (same unit)."""
     dx, dy = abs(goal[0] - start[0]), abs(goal[1] - start[1])
     return max(dx, dy) + (math.sqrt(2.0) - 1.0) * min(dx, dy)
 

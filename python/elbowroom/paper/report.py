@@ -22,7 +22,7 @@ def as_markdown(trials: Sequence[Trial], maps: Maps, *, seed: int, folder: Path)
     """Return the report; pictures are linked relative to ``folder``."""
     parts = [
         f"# The paper's experiments, run by elbowroom {__version__}\n\n"
-        "Lengths in cm. Planned the paper's way: the union of both postures, eight neighbours, grid points checked and "
+        "Lengths in cm. Planned as in the paper: the union of both postures, eight neighbours, grid points checked and "
         "nothing between them, quintic pieces through random via points. **None of these motions is verified.** "
         "The paper prints its obstacles only in figures: the five circles of `paper-standin` and `paper-table1` are "
         f"ours. Pictures are those of seed {seed}.",
@@ -55,8 +55,8 @@ def _printed(trials: Sequence[Trial]) -> str:
             free_turning = around_disc(task.start, task.goal, radius)
             answer = "not with Table 1"
             why = (
-                f"with joint 1 stopping at 0° and 360° the tip has to go the long way round the hole, {bound:.3f} at "
-                f"least; a joint 1 that turns freely would allow {free_turning:.3f} off the grid; without limits a "
+                f"with joint 1 limited to 0° to 360° the tip has to take the longer path round the hole, {bound:.3f} "
+                f"at least; a continuous joint 1 would allow {free_turning:.3f} off the grid; without limits a "
                 f"1 cm grid allows {grid:.4f}"
             )
         rows.append(f"| cost, task {task.name} | {task.cost} | {ours} | {answer} | {why} |")
@@ -80,9 +80,9 @@ def _bounds() -> str:
     rows = ["| bound | task first | task second |", "|---|---|---|"]
     lines = (
         ("straight line", [math.dist(t.start, t.goal) for t in TASKS]),
-        ("eight neighbours, 1 cm, nothing in the way", [octile(t.start, t.goal) for t in TASKS]),
+        ("eight neighbours, 1 cm, no obstacles", [octile(t.start, t.goal) for t in TASKS]),
         (f"around the hole of {radius:.3f}", [around_disc(t.start, t.goal, radius) for t in TASKS]),
-        ("around the hole, the long way", [around_disc(t.start, t.goal, radius, long_way=True) for t in TASKS]),
+        ("around the hole, the longer path", [around_disc(t.start, t.goal, radius, long_way=True) for t in TASKS]),
     )
     rows += [f"| {name} | {first:.4f} | {second:.4f} |" for name, (first, second) in lines]
     return (
@@ -113,8 +113,8 @@ def _runs(trials: Sequence[Trial]) -> str:
         "## Runs\n\n"
         + "\n".join(rows)
         + "\n\nA path jumps if, with the best choice of a configuration for each of its "
-        "places, some step would need the other posture away from full stretch, or a joint across its stop: no arm can "
-        "follow it."
+        "places, some step would need the other posture away from full stretch, or a joint beyond its limit: no arm "
+        "can follow it."
     )
 
 

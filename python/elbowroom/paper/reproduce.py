@@ -23,7 +23,7 @@ FINER_STEPS = (0.005, 0.002, 0.001)
 
 
 def reproduce(out: Path, *, seed: int = 0, seeds: int = 100, show: Callable[[str], None] | None = None) -> Path:
-    """Plan both tasks on the three scenes the paper's way; write pictures and ``report.md`` below ``out``.
+    """Plan both tasks on the three scenes as in the paper; write pictures and ``report.md`` below ``out``.
 
     Args:
         out: Folder, made if need be.

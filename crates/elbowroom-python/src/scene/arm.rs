@@ -6,12 +6,12 @@ use super::part::{Keywords, NewArgs, Part, each_of_class, hash_of, made, number,
 use crate::errors;
 use crate::once::Once;
 
-/// Where a joint may turn, and how fast: all the way round if ``continuous``, else from ``min`` to ``max``, ends included.
+/// Where a joint may turn, and how fast: without limits if ``continuous``, else from ``min`` to ``max``, ends included.
 ///
 /// Args:
-///     continuous: Whether it turns all the way round, again and again.
-///     min: Its lower stop (rad).
-///     max: Its upper stop (rad).
+///     continuous: Whether it turns without limits.
+///     min: Its lower limit (rad).
+///     max: Its upper limit (rad).
 ///     velocity: Its greatest (rad/s); None, as of the next two, where none is stated.
 ///     acceleration: Its greatest (rad/s²).
 ///     jerk: Its greatest (rad/s³).
@@ -52,19 +52,19 @@ impl Joint {
         Ok(made(Self { joint: arm::Joint { limits, motion } }))
     }
 
-    /// Whether it turns all the way round.
+    /// Whether it turns without limits.
     #[getter]
     fn continuous(&self) -> bool {
         matches!(self.joint.limits, JointLimits::Continuous)
     }
 
-    /// Its lower stop (rad); ``None`` if it has none.
+    /// Its lower limit (rad); ``None`` if it has none.
     #[getter]
     fn min(&self) -> Option<f64> {
         self.stops().map(|[min, _]| min)
     }
 
-    /// Its upper stop (rad); ``None`` if it has none.
+    /// Its upper limit (rad); ``None`` if it has none.
     #[getter]
     fn max(&self) -> Option<f64> {
         self.stops().map(|[_, max]| max)

@@ -8,6 +8,7 @@ mod obstacle;
 mod part;
 mod source;
 mod task;
+mod units;
 
 pub(crate) use arm::{Arm, Joint};
 pub(crate) use grid::Grid;
@@ -15,3 +16,4 @@ pub(crate) use model::{Scene, scene_again};
 pub(crate) use motion::ObstacleMotion;
 pub(crate) use obstacle::{Obstacle, add_shapes};
 pub(crate) use task::{Configuration, Task};
+pub(crate) use units::{Units, measured, stated};

@@ -12,6 +12,7 @@ use super::obstacle::Obstacle;
 use super::part::{Keywords, NewArgs, Part, each_of_class, keywords_of, made, of_class};
 use super::source::{self, Source};
 use super::task::Task;
+use super::units::Units;
 use crate::errors;
 use crate::once::Once;
 
@@ -27,6 +28,8 @@ const MOST_SHOWN: usize = 4;
 ///     grid: The points of its free-space maps.
 ///     obstacles: What it must not touch.
 ///     tasks: What is asked of it, by name.
+///     units: What texts and pictures tell lengths and angles in; of a file those that it is written in. Attributes, and
+///         numbers that are asked for, are in metres and radians all the same.
 ///
 /// Raises:
 ///     SceneError: The parts make no scene.
@@ -50,6 +53,8 @@ pub(crate) struct Scene {
     pub(crate) scene: scene::Scene,
     /// As it was given, which says more than its points.
     grid: Grid,
+    /// In which its texts and pictures are.
+    units: Units,
     /// `None` if the scene was made, or changed, in code.
     source: Option<Source>,
     arm: Once<Arm>,
@@ -71,9 +76,9 @@ impl PartialEq for Scene {
 }
 
 impl Scene {
-    fn of(scene: scene::Scene, grid: Grid, source: Option<Source>) -> PyClassInitializer<Self> {
+    fn of(scene: scene::Scene, grid: Grid, units: Units, source: Option<Source>) -> PyClassInitializer<Self> {
         let (arm, obstacles, tasks, sha256) = (Once::new(), Once::new(), Once::new(), Once::new());
-        made(Self { scene, grid, source, arm, obstacles, tasks, sha256 })
+        made(Self { scene, grid, units, source, arm, obstacles, tasks, sha256 })
     }
 
     pub(crate) fn task(&self, py: Python<'_>, name: &str) -> PyResult<&scene::Task> {
@@ -91,6 +96,11 @@ impl Scene {
         self.scene.obstacles().get(index).and_then(|obstacle| obstacle.name.as_deref())
     }
 
+    /// What its texts tell lengths and angles in.
+    pub(crate) fn units(&self) -> elbowroom::units::Units {
+        self.units.units()
+    }
+
     /// Refuses an arm of other than two links, for `what` serves obstacles that move too.
     pub(crate) fn check_links(&self, py: Python<'_>, what: &str) -> PyResult<()> {
         match self.scene.arm().links() {
@@ -103,7 +113,7 @@ impl Scene {
         let read = py.detach(|| scene::parse(text, file)).map_err(|error| errors::scene_file(py, &error))?;
         let source = Source::of(&read, file);
         let grid = (*read.scene.grid()).into();
-        Bound::new(py, Self::of(read.scene, grid, Some(source)))
+        Bound::new(py, Self::of(read.scene, grid, read.units.into(), Some(source)))
     }
 
     /// The hash of what the scene says.
@@ -140,13 +150,14 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (*, arm, grid, obstacles=None, tasks=None))]
+    #[pyo3(signature = (*, arm, grid, obstacles=None, tasks=None, units=None))]
     fn new<'py>(
         py: Python<'py>,
         arm: &Bound<'py, Arm>,
         grid: &Bound<'py, Grid>,
         obstacles: Option<&Bound<'py, PyAny>>,
         tasks: Option<&Bound<'py, PyMapping>>,
+        units: Option<&Bound<'py, Units>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let obstacles = obstacles.map(|given| each_of_class::<Obstacle>(given, "obstacles")).transpose()?;
         let obstacles =
@@ -161,7 +172,7 @@ impl Scene {
         }
         let grid = *grid.get();
         scene::Scene::new(arm.get().arm().clone(), grid.grid(), obstacles, named)
-            .map(|scene| Self::of(scene, grid, None))
+            .map(|scene| Self::of(scene, grid, units.map_or_else(Units::default, |given| *given.get()), None))
             .map_err(|problem| errors::part(py, "scene", &problem.to_string()))
     }
 
@@ -220,6 +231,13 @@ impl Scene {
         Ok(PyMappingProxy::new(py, self.tasks_by_name(py)?.as_mapping()))
     }
 
+    /// The units that texts and pictures of it are in.
+    #[getter]
+    #[pyo3(name = "units")]
+    fn units_shown<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, Units>> {
+        self.units.shown(py)
+    }
+
     /// What the text is called that it was read from; ``None`` if it was made, or changed, in code.
     #[getter]
     fn file(&self) -> Option<&str> {
@@ -239,7 +257,7 @@ impl Scene {
     }
 
     /// Return the clearance of each link from the obstacles at configurations ``q``, shape ``(n, joints)``, as an array
-    /// of that shape (m); 0 or less in contact, infinite without obstacles. Joint limits are not looked at.
+    /// of that shape (m); 0 or less in contact, infinite without obstacles. Joint limits do not matter.
     ///
     /// Raises:
     ///     BadSetting: ``q`` has not a column for each joint.
@@ -313,6 +331,10 @@ impl Scene {
             .with("grid", self.grid(py)?)?
             .with("obstacles", self.obstacles(py)?)?
             .with("tasks", self.tasks_by_name(py)?.copy()?)?;
+        let keywords = match self.units == Units::default() {
+            true => keywords,
+            false => keywords.with("units", self.units.shown(py)?)?,
+        };
         Ok(keywords.told())
     }
 
@@ -354,5 +376,5 @@ pub(crate) fn scene_again<'py>(
     let locations = locations.iter().map(|(end, at)| Ok((end.extract()?, at.extract()?)));
     let source = Source { file, locations: locations.collect::<PyResult<_>>()? };
     let again = made.get();
-    Bound::new(py, Scene::of(again.scene.clone(), again.grid, Some(source)))
+    Bound::new(py, Scene::of(again.scene.clone(), again.grid, again.units, Some(source)))
 }

@@ -6,16 +6,16 @@ use pyo3::types::PyTuple;
 use super::part::{Keywords, NewArgs, Part, hash_of, made, number};
 use crate::errors;
 
-/// How an obstacle moves, without turning: by way-points, at one velocity, or after the arm's tip.
+/// How an obstacle moves, without turning: by waypoints, at one velocity, or after the arm's tip.
 ///
 /// Args:
 ///     waypoints: Times (s) and shifts from where the scene has the obstacle (m): straight from one to the next, still
 ///         before the first and after the last.
 ///     velocity: In m/s, from ``start`` (s) on.
 ///     start: When it begins to move at its velocity (s).
-///     chases: Whether it goes after the tip, at its greatest speed, but no nearer to the arm than ``keep_off`` (m).
+///     chases: Whether it goes after the tip, at its maximum speed, but no nearer to the arm than ``keep_off`` (m).
 ///     keep_off: See ``chases``.
-///     greatest_speed: It is never faster (m/s); None for that of its way-points or velocity.
+///     greatest_speed: It is never faster (m/s); None for that of its waypoints or velocity.
 ///     seen_from: Since when the arm knows of it (s); None, as ``sensing_radius``, if it always does.
 ///     sensing_radius: The arm knows of it while it is no farther away than this (m).
 ///
@@ -124,7 +124,7 @@ impl ObstacleMotion {
         }
     }
 
-    /// It is never faster (m/s); ``None`` for the speed of its way-points or velocity.
+    /// It is never faster (m/s); ``None`` for the speed of its waypoints or velocity.
     #[getter]
     fn greatest_speed(&self) -> Option<f64> {
         self.motion.declared_speed().map(number)

@@ -22,7 +22,7 @@ impl Obstacle {
         self.obstacle.name.as_deref()
     }
 
-    /// How it moves; ``None`` if it stands still.
+    /// How it moves; ``None`` if it is static.
     #[getter]
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, ObstacleMotion>>> {
         self.obstacle.motion.clone().map(|motion| ObstacleMotion::of(py, motion)).transpose()
@@ -99,7 +99,7 @@ impl Obstacle {
 ///     center: Its middle (m).
 ///     radius: Of the disc (m).
 ///     name: What people call it.
-///     motion: How it moves; None for what stands still.
+///     motion: How it moves; None for a static one.
 ///
 /// Raises:
 ///     SceneError: The numbers make no disc.
@@ -148,7 +148,7 @@ impl Circle {
 ///     end: The other (m).
 ///     radius: How far around the line the wall goes (m); 0 for one without thickness.
 ///     name: What people call it.
-///     motion: How it moves; None for what stands still.
+///     motion: How it moves; None for a static one.
 ///
 /// Raises:
 ///     SceneError: The numbers make no wall.
@@ -204,7 +204,7 @@ impl Segment {
 /// Args:
 ///     vertices: Its corners, in either direction, without repeating the first (m).
 ///     name: What people call it.
-///     motion: How it moves; None for what stands still.
+///     motion: How it moves; None for a static one.
 ///
 /// Raises:
 ///     SceneError: The corners make no simple polygon.

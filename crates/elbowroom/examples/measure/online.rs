@@ -131,7 +131,7 @@ fn follow(
 }
 
 /// One obstacle after the other moves by a cell and back again: the cost-to-go repaired to the path of the first task, and
-/// everywhere, each against a roadmap from scratch. That the fields are equal, to the last bit, is looked at outside the
+/// everywhere, each against a roadmap from scratch. That the fields are equal, to the last bit, is examined outside the
 /// times.
 pub(crate) fn repaired(file: &str, points: usize, moves: usize) -> Outcome {
     let scene = scenes::load(file, points)?;

@@ -31,7 +31,7 @@ const RADIUS: f64 = 0.02;
 /// Discs stay farther from the base than this share of the reach: where the arm can get out of the way of all of them.
 const ROOM_AT_BASE: f64 = 0.6;
 
-/// How often the memory held is looked at in all.
+/// How often the memory held is examined in all.
 const LOOKS_AT_MEMORY: usize = 6;
 
 /// How an arm is kept going.
@@ -144,7 +144,7 @@ fn follow(file: &str, points: usize, run: &Run) -> Result<(Value, Times), Box<dy
     Ok((found, times))
 }
 
-/// The scene with discs that fly from way-point to way-point.
+/// The scene with discs that fly from waypoint to waypoint.
 fn among_discs(scene: &Scene, run: &Run) -> Result<Scene, Box<dyn Error>> {
     let mut rng = ChaCha8Rng::seed_from_u64(10);
     let mut unit = move || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
@@ -173,7 +173,7 @@ fn among_discs(scene: &Scene, run: &Run) -> Result<Scene, Box<dyn Error>> {
     Ok(scene.with_obstacles(obstacles)?)
 }
 
-/// What the arm knows at `now` (s): the next way-points.
+/// What the arm knows at `now` (s): the next waypoints.
 fn known(scene: &Scene, now: f64) -> Result<Vec<KnownMotion>, Box<dyn Error>> {
     let mut known = Vec::new();
     for (obstacle, motion) in scene.obstacles().iter().map(|obstacle| obstacle.motion.as_ref()).enumerate() {

@@ -175,7 +175,7 @@ impl Arm {
     }
 
     /// How far each joint turns on the shortest straight motion from `from` to `to` (rad): a continuous joint the short way
-    /// round, one with stops by the plain difference.
+    /// round, one with limits by the plain difference.
     ///
     /// # Panics
     /// Unless both have a position for each joint.
@@ -186,7 +186,7 @@ impl Arm {
         joints.map(|(joint, (&from, &to))| joint.limits.difference(from, to)).collect()
     }
 
-    /// `to` with every continuous joint counted on by whole turns to where it is nearest to `from` (rad).
+    /// `to` with every continuous joint counted on by whole revolutions to where it is nearest to `from` (rad).
     ///
     /// # Panics
     /// Unless both have a position for each joint.

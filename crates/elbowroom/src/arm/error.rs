@@ -2,6 +2,7 @@ use thiserror::Error;
 
 use super::joint::{JointLimitsError, MotionLimitError};
 use super::measures::{LENGTHS, MOST_LINKS};
+use crate::units::{Told, Units};
 
 /// Why no arm has the asked measures.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -22,7 +23,7 @@ pub enum ArmError {
         links: usize,
     },
     /// A joint's range is none.
-    #[error("joint {joint}: {error}")]
+    #[error("{}", self.told(Units::SI))]
     JointLimits {
         /// 1 for the joint at the base.
         joint: usize,
@@ -38,10 +39,7 @@ pub enum ArmError {
         error: MotionLimitError,
     },
     /// The links before and after a link touch whatever the joints do.
-    #[error(
-        "link {link} is {length} m long and {half_width} m in half width: its neighbours, which have to keep clear of \
-         each other, always touch"
-    )]
+    #[error("{}", self.told(Units::SI))]
     AlwaysTouching {
         /// 1 for the link at the base.
         link: usize,
@@ -51,7 +49,7 @@ pub enum ArmError {
         half_width: f64,
     },
     /// A link's length is outside what can be served.
-    #[error("link {link} is {length} m long, {} m to {} m are allowed", LENGTHS.start(), LENGTHS.end())]
+    #[error("{}", self.told(Units::SI))]
     Length {
         /// 1 for the link at the base.
         link: usize,
@@ -59,17 +57,49 @@ pub enum ArmError {
         length: f64,
     },
     /// The half width is negative, infinite or not a number.
-    #[error("half width is {half_width} m, 0 m to {} m are allowed", LENGTHS.end())]
+    #[error("{}", self.told(Units::SI))]
     HalfWidth {
         /// What was asked (m).
         half_width: f64,
     },
     /// The base is too far from the origin for exact enough coordinates, or not a number.
-    #[error("base is at ({x} m, {y} m), coordinates up to {} m are allowed", LENGTHS.end())]
+    #[error("{}", self.told(Units::SI))]
     Base {
         /// What was asked (m).
         x: f64,
         /// What was asked (m).
         y: f64,
     },
+}
+
+impl Told for ArmError {
+    fn told(&self, units: Units) -> String {
+        let length = |metres| units.stated_length(metres);
+        match *self {
+            Self::JointLimits { joint, error } => format!("joint {joint}: {}", error.told(units)),
+            Self::AlwaysTouching { link, length: long, half_width } => format!(
+                "link {link} is {} long and {} in half width: its neighbours, which have to keep clear of each other, always \
+                 touch",
+                length(long),
+                length(half_width)
+            ),
+            Self::Length { link, length: long } => format!(
+                "link {link} is {} long, {} to {} are allowed",
+                length(long),
+                length(*LENGTHS.start()),
+                length(*LENGTHS.end())
+            ),
+            Self::HalfWidth { half_width } => {
+                format!("half width is {}, 0 to {} are allowed", length(half_width), length(*LENGTHS.end()))
+            }
+            Self::Base { x, y } => {
+                format!(
+                    "base is at {}, coordinates up to {} are allowed",
+                    units.place(x, y),
+                    length(*LENGTHS.end())
+                )
+            }
+            Self::Links { .. } | Self::Joints { .. } | Self::MotionLimit { .. } => self.to_string(),
+        }
+    }
 }

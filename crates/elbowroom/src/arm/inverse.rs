@@ -20,7 +20,7 @@ pub enum InverseError {
         farthest: f64,
     },
     /// The links can put the tip there, but a joint may not turn so far.
-    #[error("joint {joint} would have to turn to {angle} rad, outside its limits")]
+    #[error("joint {joint} would have to move to {angle} rad, outside its limits")]
     OutsideJointLimits {
         /// 1 for the joint at the base.
         joint: usize,
@@ -62,7 +62,7 @@ impl TwoLink {
     }
 
     /// Every configuration within the joint limits that puts the tip at `tip` in `posture`: one, or
-    /// several where a joint with stops can turn more than once round.
+    /// several where a joint with limits can turn more than once round.
     ///
     /// # Errors
     /// [`InverseError::OutOfReach`] if the links cannot put the tip there;

@@ -3,14 +3,15 @@ use std::f64::consts::TAU;
 use thiserror::Error;
 
 use crate::geometry::{angle_difference, wrap_angle};
+use crate::units::{Told, Units};
 
 /// Rounding that inverse kinematics may put between an angle and the limit it lies on (rad).
 const LIMIT_ROUNDING: f64 = 1e-12;
 
-/// Widest range of a joint with stops (rad); beyond it angles lose the digits the checks rely on.
+/// Widest range of a joint with limits (rad); beyond it angles lose the digits the checks rely on.
 const WIDEST_RANGE: f64 = 1e3 * TAU;
 
-/// Most turns that a range may hold: more is angles in another unit, or a joint without stops, and planning time grows with it.
+/// Most turns that a range may hold: more is angles in another unit, or a joint without limits, and planning time grows with it.
 const MOST_TURNS: f64 = 20.0;
 
 /// Where a joint may turn.
@@ -18,11 +19,11 @@ const MOST_TURNS: f64 = 20.0;
 pub enum JointLimits {
     /// All the way round, again and again: a circle.
     Continuous,
-    /// Between two stops, both included: a line. 0 and 2π are then different places.
+    /// Between two limits, both included: a line. 0 and 2π are then different places.
     Range {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
 }
@@ -31,32 +32,52 @@ pub enum JointLimits {
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum JointLimitsError {
     /// Infinite, not a number, or further than a thousand turns from 0.
-    #[error("limits are {min} rad to {max} rad, they must lie within a thousand turns of 0")]
+    #[error("{}", self.told(Units::SI))]
     OutsideRange {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
     /// More than 20 turns apart.
-    #[error(
-        "limits from {min} rad to {max} rad are {:.1} turns apart, more than 20: is that degrees? A joint without limits is continuous",
-        (max - min) / TAU
-    )]
+    #[error("{}", self.told(Units::SI))]
     TooWide {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
-    /// The lower stop is above the upper one.
-    #[error("lower limit {min} rad is above upper limit {max} rad")]
+    /// The lower limit is above the upper one.
+    #[error("{}", self.told(Units::SI))]
     Reversed {
-        /// Lower stop (rad).
+        /// Lower limit (rad).
         min: f64,
-        /// Upper stop (rad).
+        /// Upper limit (rad).
         max: f64,
     },
+}
+
+impl Told for JointLimitsError {
+    fn told(&self, units: Units) -> String {
+        match *self {
+            Self::OutsideRange { min, max } => format!(
+                "limits are {} to {}, they must lie within a thousand revolutions of 0",
+                units.stated_angle(min),
+                units.stated_angle(max)
+            ),
+            Self::TooWide { min, max } => format!(
+                "limits from {} to {} are {:.1} revolutions apart, more than 20: are they degrees? A joint without limits is continuous",
+                units.stated_angle(min),
+                units.stated_angle(max),
+                (max - min) / TAU
+            ),
+            Self::Reversed { min, max } => format!(
+                "lower limit {} is above upper limit {}",
+                units.stated_angle(min),
+                units.stated_angle(max)
+            ),
+        }
+    }
 }
 
 impl JointLimits {
@@ -77,7 +98,7 @@ impl JointLimits {
                 Err(JointLimitsError::OutsideRange { min, max })
             }
             Self::Range { min, max } if min > max => Err(JointLimitsError::Reversed { min, max }),
-            // 20 turns written in degrees are still 20 turns.
+            // 20 turns written in degrees are 20 turns, rounding or not.
             Self::Range { min, max } if (max - min) / TAU > MOST_TURNS + 1e-9 => {
                 Err(JointLimitsError::TooWide { min, max })
             }
@@ -85,7 +106,7 @@ impl JointLimits {
         }
     }
 
-    /// How far the joint turns from `from` to `to` (rad): the short way round if it is continuous, in (-π, π], else the
+    /// How far the joint turns from `from` to `to` (rad): along the shorter direction if it is continuous, in (-π, π], else the
     /// plain difference.
     pub fn difference(&self, from: f64, to: f64) -> f64 {
         match self {
@@ -94,7 +115,7 @@ impl JointLimits {
         }
     }
 
-    /// `to`, counted on by whole turns to where it is nearest to `from` if the joint is continuous (rad).
+    /// `to`, counted on by whole revolutions to where it is nearest to `from` if the joint is continuous (rad).
     pub fn nearest_turn(&self, from: f64, to: f64) -> f64 {
         match self {
             Self::Continuous => from + angle_difference(from, to),
@@ -112,7 +133,7 @@ impl JointLimits {
 
     /// Every place where the joint may stand to point in direction `angle` (rad), lowest first.
     ///
-    /// A continuous joint has one, in (-π, π]; one with stops has one for each turn that fits between
+    /// A continuous joint has one, in (-π, π]; one with limits has one for each turn that fits between
     /// them. An angle beyond a stop by no more than rounding is put on the stop.
     pub fn places(&self, angle: f64) -> impl ExactSizeIterator<Item = f64> + use<> {
         let (min, max) = match *self {
@@ -131,17 +152,17 @@ impl JointLimits {
 /// The fastest a joint may move; `None` where the user stated no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionLimits {
-    /// Greatest speed (rad/s).
+    /// Maximum speed (rad/s).
     pub velocity: Option<f64>,
-    /// Greatest acceleration (rad/s²).
+    /// Maximum acceleration (rad/s²).
     pub acceleration: Option<f64>,
-    /// Greatest jerk (rad/s³).
+    /// Maximum jerk (rad/s³).
     pub jerk: Option<f64>,
 }
 
 /// A limit of a joint's motion that is none.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("greatest {rate} is {value:?}, it must be finite and greater than 0: from 1e-6 to 1e12")]
+#[error("limit on {rate} is {value:?}, it must be finite and greater than 0: from 1e-6 to 1e12")]
 pub struct MotionLimitError {
     /// `velocity`, `acceleration` or `jerk`.
     pub rate: &'static str,
@@ -179,7 +200,7 @@ pub struct Joint {
 }
 
 impl Joint {
-    /// One that turns all the way round, with no limit on its motion stated.
+    /// One that turns without limits, with no limit on its motion stated.
     pub const CONTINUOUS: Self = Self {
         limits: JointLimits::Continuous,
         motion: MotionLimits { velocity: None, acceleration: None, jerk: None },

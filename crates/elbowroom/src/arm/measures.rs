@@ -2,4 +2,4 @@
 pub const MOST_LINKS: usize = 64;
 
 /// Shortest and longest link (m) that arithmetic in f64 can serve with the digits promised.
-pub(super) const LENGTHS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+pub(crate) const LENGTHS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;

@@ -15,6 +15,7 @@ pub use configuration::{Configuration, joint_distance, lerp};
 pub use error::ArmError;
 pub use inverse::InverseError;
 pub use joint::{Joint, JointLimits, JointLimitsError, MotionLimitError, MotionLimits};
+pub(crate) use measures::LENGTHS;
 pub use measures::MOST_LINKS;
 pub use posture::Posture;
 pub use two_link::TwoLink;

@@ -17,7 +17,7 @@ pub(crate) struct JointSpaceCells {
     rounds: [bool; 2],
 }
 
-/// Where the second joint may be (rad) for each of `starts`: within its stops and, where the posture is to be kept,
+/// Where the second joint may be (rad) for each of `starts`: within its limits and, where the posture is to be kept,
 /// between full stretch and fold.
 pub(crate) fn branch_ranges(
     scene: TwoLinkScene<'_>,

@@ -10,7 +10,7 @@ const WIDEST: f64 = 0.03;
 
 /// Where the tip may be in whatever posture, as a mesh over the world's plane (m): the square around the reach
 /// without the obstacles and without the disc that the second joint keeps the tip out of. More than all that can be
-/// reached, for it does not heed what the links touch.
+/// reached, for it does not consider what the links touch.
 pub(crate) fn workspace_cells(
     scene: TwoLinkScene<'_>,
     approximation: Approximation,

@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use crate::arm::JointLimits;
 use crate::geometry::Vector;
 
-/// The directions a joint with stops may point in, less than a whole turn, asked without an angle.
+/// The directions a joint with limits may point in, less than a whole revolution, asked without an angle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
     from: Vector,

@@ -23,7 +23,7 @@ struct Edge {
 
 impl Boundary {
     pub(super) fn new(shape: &Shape, base: Point, rounding: f64) -> Self {
-        // Of each edge the first end is looked at: a line between two points is one there and one back.
+        // Of each edge the first end is examined: a line between two points is one there and one back.
         let back = shape.edges().filter(|_| !shape.has_inside()).map(|edge| Segment::new(edge.b, edge.a));
         let edges = shape.edges().chain(back).map(|edge| {
             let (from, to, way) = (edge.a - base, edge.b - base, edge.b - edge.a);

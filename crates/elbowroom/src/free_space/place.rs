@@ -5,6 +5,7 @@ use super::{FreeSpace, Reason, reason_against};
 use crate::arm::{InverseError, Posture};
 use crate::geometry::Point;
 use crate::scene::{Place, TwoLinkScene};
+use crate::units::{Told, Units};
 
 /// A place where the arm cannot stand.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,30 +23,38 @@ impl std::error::Error for NotFree {}
 
 impl fmt::Display for NotFree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.place {
-            Place::Tip(tip) => write!(f, "({} m, {} m) is not free", tip.x, tip.y)?,
+        f.write_str(&self.told(Units::SI))
+    }
+}
+
+impl Told for NotFree {
+    fn told(&self, units: Units) -> String {
+        let place = match &self.place {
+            Place::Tip(tip) => units.place(tip.x, tip.y),
             Place::Configuration(q) => {
-                let angles: Vec<String> = q.iter().map(|angle| format!("{angle:.6} rad")).collect();
-                write!(f, "q = [{}] is not free", angles.join(", "))?;
+                let angles: Vec<String> = q.iter().map(|&angle| units.stated_angle(angle)).collect();
+                format!("q = [{}]", angles.join(", "))
             }
-        }
+        };
         let one_for_all = self.reasons.windows(2).all(|pair| pair[0].1 == pair[1].1);
-        for (i, (posture, reason)) in self.reasons.iter().enumerate().take(if one_for_all { 1 } else { 2 }) {
-            write!(f, "{}", if i == 0 { ": " } else { "; " })?;
-            match posture {
-                Some(posture) if !one_for_all => write!(f, "{}: {reason}", posture.name())?,
-                _ => write!(f, "{reason}")?,
-            }
-        }
-        match self.nearest_free {
-            Some(p) => write!(f, "\nnearest free grid point: ({:.6} m, {:.6} m)", p.x, p.y),
-            None => Ok(()),
-        }
+        let told =
+            self.reasons.iter().take(if one_for_all { 1 } else { 2 }).map(
+                |(posture, reason)| match posture {
+                    Some(posture) if !one_for_all => format!("{}: {}", posture.name(), reason.told(units)),
+                    _ => reason.told(units),
+                },
+            );
+        let reasons: Vec<String> = told.collect();
+        let colon = if reasons.is_empty() { "" } else { ": " };
+        let nearest = self
+            .nearest_free
+            .map_or_else(String::new, |p| format!("\nnearest free grid point: {}", units.place(p.x, p.y)));
+        format!("{place} is not free{colon}{}{nearest}", reasons.join("; "))
     }
 }
 
 /// Every free configuration that `place` stands for, elbow-up first: the configuration itself, or those that put
-/// the tip there, all turns between the stops included.
+/// the tip there, in every revolution within the joint limits.
 ///
 /// # Errors
 /// [`NotFree`] if there is none.

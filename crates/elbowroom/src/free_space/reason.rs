@@ -4,15 +4,14 @@ use super::CONTACT_FLOOR;
 use super::state::touches;
 use crate::arm::JointLimits;
 use crate::geometry::Segment;
-use crate::scene::Scene;
+use crate::scene::{Scene, obstacle_in_words};
+use crate::units::{Told, Units, apart};
 
 /// What forbids a configuration, or a place of the tip in one posture.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Reason {
     /// The links cannot put the tip there.
-    #[error(
-        "the tip would be {distance:.6} m from the base, the arm reaches {nearest:.6} m to {farthest:.6} m"
-    )]
+    #[error("{}", self.told(Units::SI))]
     OutOfReach {
         /// From base to tip (m).
         distance: f64,
@@ -22,7 +21,7 @@ pub enum Reason {
         farthest: f64,
     },
     /// A joint would have to stand outside its limits.
-    #[error("joint {joint} would stand at {angle:.6} rad, {}", in_words(limits))]
+    #[error("{}", self.told(Units::SI))]
     JointLimit {
         /// 1 for the joint at the base.
         joint: usize,
@@ -32,11 +31,11 @@ pub enum Reason {
         limits: JointLimits,
     },
     /// A link would touch an obstacle.
-    #[error("link {link} would be {depth:.6} m deep in obstacle {}", title(*obstacle, name.as_deref()))]
+    #[error("{}", self.told(Units::SI))]
     Collision {
         /// 1 for the link at the base.
         link: usize,
-        /// The obstacle's place in the scene, from 0.
+        /// The obstacle's place among the scene's, from 0.
         obstacle: usize,
         /// Its name, if it has one.
         name: Option<String>,
@@ -44,7 +43,7 @@ pub enum Reason {
         depth: f64,
     },
     /// Two links that are no neighbours would touch.
-    #[error("link {link} would be {depth:.6} m deep in link {other}")]
+    #[error("{}", self.told(Units::SI))]
     SelfCollision {
         /// The one nearer to the base, 1 for the link there.
         link: usize,
@@ -63,7 +62,7 @@ pub enum Reason {
     },
 }
 
-/// What forbids the configuration `q` (rad): another number of joints than the arm has, else the first joint beyond its stops, else the deepest contact with an obstacle,
+/// What forbids the configuration `q` (rad): another number of joints than the arm has, else the first joint beyond its limits, else the deepest contact with an obstacle,
 /// else the deepest of links with each other.
 pub fn reason_against(scene: &Scene, q: &[f64]) -> Option<Reason> {
     let joints = scene.arm().links();
@@ -120,16 +119,45 @@ fn deepest_self_contact(scene: &Scene, q: &[f64]) -> Option<Reason> {
     })
 }
 
-fn in_words(limits: &JointLimits) -> String {
-    match limits {
-        JointLimits::Continuous => "which is no angle".to_owned(),
-        JointLimits::Range { min, max } => format!("it may turn from {min:.6} rad to {max:.6} rad"),
+impl Told for Reason {
+    fn told(&self, units: Units) -> String {
+        match self {
+            &Self::OutOfReach { distance, nearest, farthest } => {
+                let beyond = if distance > farthest { farthest } else { nearest };
+                let [distance, _] = apart(units.of_metres(distance), units.of_metres(beyond));
+                format!(
+                    "out of reach: {distance} {} from the base, the arm reaches {} to {}",
+                    units.length.name(),
+                    units.stated_length(nearest),
+                    units.stated_length(farthest)
+                )
+            }
+            Self::JointLimit { joint, angle, limits } => match *limits {
+                JointLimits::Continuous => {
+                    format!("joint {joint} would have to be at an angle that is no number")
+                }
+                JointLimits::Range { min, max } => {
+                    let beyond = if *angle > max { max } else { min };
+                    let [angle, _] = units.beside_limit(*angle, beyond, 0);
+                    let [min, max] = [min, max].map(|limit| units.stated_angle(limit));
+                    format!("joint {joint} would have to be at {angle}, its limits are {min} to {max}")
+                }
+            },
+            Self::Collision { link, obstacle, name, depth } => {
+                contact(units, *link, &obstacle_in_words(*obstacle, name.as_deref()), *depth)
+            }
+            Self::SelfCollision { link, other, depth } => {
+                contact(units, *link, &format!("link {other}"), *depth)
+            }
+            Self::OtherArm { .. } => self.to_string(),
+        }
     }
 }
 
-fn title(obstacle: usize, name: Option<&str>) -> String {
-    match name {
-        Some(name) => format!("{obstacle} ({name})"),
-        None => obstacle.to_string(),
+fn contact(units: Units, link: usize, other: &str, depth: f64) -> String {
+    // Within the floor of contact there is no depth to speak of.
+    if depth <= CONTACT_FLOOR {
+        return format!("link {link} would touch {other}");
     }
+    format!("link {link} would penetrate {other} by {}", units.length(depth))
 }

@@ -80,14 +80,25 @@ impl FreeSpace {
     /// How many points have two, one and no configuration, in `scene`, whose maps these are.
     pub fn cases(&self, scene: TwoLinkScene<'_>) -> Cases {
         let mut cases = Cases::default();
-        for cell in 0..scene.grid().len() {
-            match Posture::ALL.iter().filter(|&&posture| self.map(posture).is_free(cell)).count() {
-                2 if !both_are_one(scene, cell) => cases.two += 1,
+        for configurations in self.configurations(scene) {
+            match configurations {
                 0 => cases.none += 1,
-                _ => cases.one += 1,
+                1 => cases.one += 1,
+                _ => cases.two += 1,
             }
         }
         cases
+    }
+
+    /// How many free configurations put the tip on each point, row after row: 0, 1 or 2, in `scene`, whose maps these are.
+    pub fn configurations<'s>(&'s self, scene: TwoLinkScene<'s>) -> impl Iterator<Item = u8> + 's {
+        (0..scene.grid().len()).map(move |cell| {
+            match Posture::ALL.iter().filter(|&&posture| self.map(posture).is_free(cell)).count() {
+                2 if !both_are_one(scene, cell) => 2,
+                0 => 0,
+                _ => 1,
+            }
+        })
     }
 }
 

@@ -44,7 +44,7 @@ pub fn state_of(scene: TwoLinkScene<'_>, tip: Point, posture: Posture) -> CellSt
     match scene.arm().inverse(tip, posture) {
         Err(InverseError::OutOfReach { .. }) => CellState::OutOfReach,
         Err(InverseError::OutsideJointLimits { joint, .. }) => CellState::JointLimit { joint: joint as u8 },
-        // Configurations that differ by whole turns put the links in the same place.
+        // Configurations that differ by whole revolutions put the links in the same place.
         Ok(found) => match first_contact(scene, scene.arm().link_segments(&found[0])) {
             None => CellState::Free,
             Some((link, obstacle)) => {

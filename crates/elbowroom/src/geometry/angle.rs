@@ -9,7 +9,7 @@ pub fn wrap_angle(angle: f64) -> f64 {
     if turned <= -PI { turned + TAU } else { turned }
 }
 
-/// The short way round from `from` to `to`, in (-π, π].
+/// The shorter direction from `from` to `to`, in (-π, π].
 pub fn angle_difference(from: f64, to: f64) -> f64 {
     wrap_angle(to - from)
 }

@@ -55,7 +55,7 @@ pub(super) fn depth_of_segment(vertices: &[Point], segment: Segment, tolerance: 
 
 /// The first two edges, in their order, that have more in common than they may: decided exactly.
 ///
-/// Only edges whose boxes meet are looked at closely; they are found in the order of their left ends.
+/// Only edges whose boxes meet are examined closely; they are found in the order of their left ends.
 pub(super) fn first_meeting_edges(vertices: &[Point]) -> Option<(usize, usize)> {
     let edges: Vec<Segment> = edges(vertices).collect();
     let x = |i: usize| (edges[i].a.x.min(edges[i].b.x), edges[i].a.x.max(edges[i].b.x));

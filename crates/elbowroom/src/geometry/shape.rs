@@ -2,6 +2,7 @@ use smallvec::SmallVec;
 use thiserror::Error;
 
 use super::{Point, Segment, Vector, polygon};
+use crate::units::{Told, Units};
 
 /// The most vertices one polygon may have: its check for crossings takes quadratic time.
 pub const MAX_VERTICES: usize = 10_000;
@@ -14,9 +15,7 @@ const GREATEST: f64 = 1e6;
 #[non_exhaustive]
 pub enum ShapeError {
     /// No disc.
-    #[error(
-        "center ({x} m, {y} m), radius {radius} m: a circle is finite, within 1e6 m, and its radius is greater than 0"
-    )]
+    #[error("{}", self.told(Units::SI))]
     Circle {
         /// Of the centre (m).
         x: f64,
@@ -26,9 +25,7 @@ pub enum ShapeError {
         radius: f64,
     },
     /// No segment.
-    #[error(
-        "end ({x} m, {y} m), radius {radius} m: a segment is finite, within 1e6 m, and its radius is 0 or greater"
-    )]
+    #[error("{}", self.told(Units::SI))]
     Segment {
         /// Of the end that is none, else of the first (m).
         x: f64,
@@ -38,7 +35,7 @@ pub enum ShapeError {
         radius: f64,
     },
     /// A segment whose ends are one.
-    #[error("both ends are at ({x} m, {y} m); what has one place and a radius is a circle")]
+    #[error("{}", self.told(Units::SI))]
     SegmentEnds {
         /// Where both are (m).
         x: f64,
@@ -66,13 +63,38 @@ pub enum ShapeError {
         second: usize,
     },
     /// No radius for the corners of a polygon, or corners too far out for one.
-    #[error(
-        "radius {radius} m: a polygon is rounded by 0 or more, and one that is rounded at all lies within 1e6 m"
-    )]
+    #[error("{}", self.told(Units::SI))]
     Rounding {
         /// As given (m).
         radius: f64,
     },
+}
+
+impl Told for ShapeError {
+    fn told(&self, units: Units) -> String {
+        let length = |metres| units.stated_length(metres);
+        let most = length(GREATEST);
+        match *self {
+            Self::Circle { x, y, radius } => format!(
+                "center {}, radius {}: a circle is finite, within {most}, and its radius is greater than 0",
+                units.place(x, y),
+                length(radius)
+            ),
+            Self::Segment { x, y, radius } => format!(
+                "end {}, radius {}: a segment is finite, within {most}, and its radius is 0 or greater",
+                units.place(x, y),
+                length(radius)
+            ),
+            Self::SegmentEnds { x, y } => {
+                format!("both ends are at {}; what has one place and a radius is a circle", units.place(x, y))
+            }
+            Self::Rounding { radius } => format!(
+                "radius {}: a polygon is rounded by 0 or more, and one that is rounded at all lies within {most}",
+                length(radius)
+            ),
+            Self::VertexCount { .. } | Self::NotFinite { .. } | Self::EdgesMeet { .. } => self.to_string(),
+        }
+    }
 }
 
 /// All places within a radius of a core: of a point, of the straight line between two, or of a simple polygon with its

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::geometry::Point;
+use crate::units::{Told, Units};
 
 /// The most points a grid may have; beyond it the maps would not fit in the memory of a common machine.
 pub const MAX_POINTS: u64 = 1 << 25;
@@ -11,13 +12,13 @@ pub const MAX_POINTS: u64 = 1 << 25;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum GridError {
     /// The step is not a positive finite length.
-    #[error("step is {step} m, it must be finite and greater than 0")]
+    #[error("{}", self.told(Units::SI))]
     Step {
         /// What was asked (m).
         step: f64,
     },
     /// A range is infinite, not a number, or ends before it begins.
-    #[error("range {axis} is {min} m to {max} m, it must be finite and must not end before it begins")]
+    #[error("{}", self.told(Units::SI))]
     Range {
         /// `x` or `y`.
         axis: char,
@@ -34,6 +35,21 @@ pub enum GridError {
         /// Points along y.
         rows: f64,
     },
+}
+
+impl Told for GridError {
+    fn told(&self, units: Units) -> String {
+        let length = |metres| units.stated_length(metres);
+        match *self {
+            Self::Step { step } => format!("step is {}, it must be finite and greater than 0", length(step)),
+            Self::Range { axis, min, max } => format!(
+                "range {axis} is {} to {}, it must be finite and must not end before it begins",
+                length(min),
+                length(max)
+            ),
+            Self::TooManyPoints { .. } => self.to_string(),
+        }
+    }
 }
 
 /// A whole number; one of hundreds of digits as a power of ten.

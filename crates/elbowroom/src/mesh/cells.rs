@@ -37,7 +37,7 @@ const CELLS_PER_LOOK: usize = 4096;
 /// Why cells make no mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum MeshError {
-    /// A cell has fewer than three sides, a coordinate that is no number, or does not turn left all the way round.
+    /// A cell has fewer than three sides, a coordinate that is no number, or does not turn left without limits.
     #[error("cell {cell} is not convex and counter-clockwise")]
     Shape {
         /// Which cell.
@@ -199,7 +199,7 @@ impl NavigationMesh {
         Ok(())
     }
 
-    /// Which sides begin at one vertex, and where a path can bend: where the walls leave more than half a turn, or
+    /// Which sides begin at one vertex, and where a path can bend: where the walls leave more than half a revolution, or
     /// cells without walls more than a whole one.
     fn find_vertices(&mut self, keep_going: &dyn Fn() -> bool) -> Result<(), MeshError> {
         let look = |cell: usize| {
@@ -237,7 +237,7 @@ impl NavigationMesh {
                     (sides[(i + n - 1) % n].from, sides[i].from, sides[(i + 1) % n].from);
                 let (out, back) = (after - here, before - here);
                 let cross = out.cross(back);
-                // Straight on is half a turn, whatever the sign of its zero.
+                // Straight on is half a revolution, whatever the sign of its zero.
                 angles[vertex] += libm::atan2(if cross > 0.0 { cross } else { 0.0 }, out.dot(back));
                 walls[vertex] |= at_wall[side];
             }

@@ -100,14 +100,14 @@ impl Search<'_> {
         }
     }
 
-    /// `way`, a wait (s) at its end, and a straight turn to rest at `to` (rad).
+    /// `way`, a wait (s) at its end, and a straight joint motion to rest at `to` (rad).
     fn going_on(&self, way: &Motion, wait: f64, to: &[f64]) -> Option<Motion> {
         let places = [way.at(way.end()).position, to.to_vec()];
         let vias = vias_at(&places);
         after_waiting(way, wait, &quintic_through(&vias, &fastest_durations(&vias, self.limits)))
     }
 
-    /// A random place no farther than `far` (rad) from `q` in any joint, within the stops.
+    /// A random place no farther than `far` (rad) from `q` in any joint, within the limits.
     fn near(&self, q: &[f64], far: f64, rng: &mut ChaCha8Rng) -> Vec<f64> {
         let joints = q.iter().zip(self.known.all().arm().joints());
         joints

@@ -18,14 +18,14 @@ pub struct KnownMotion {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum KnownError {
-    /// The scene has no such obstacle, or has it stand still.
-    #[error("obstacle {obstacle} does not move in this scene")]
+    /// The scene has no such obstacle, or it is static there.
+    #[error("obstacles[{obstacle}] does not move in this scene")]
     StandsStill {
         /// Its number, from 0.
         obstacle: usize,
     },
     /// Two motions of one obstacle.
-    #[error("obstacle {obstacle} is known to move in two ways")]
+    #[error("obstacles[{obstacle}] is given two motions")]
     Twice {
         /// Its number, from 0.
         obstacle: usize,

@@ -1,4 +1,4 @@
-//! Obstacles that move, put somewhere to stand still.
+//! Obstacles that move, put somewhere as static ones.
 
 use crate::geometry::Vector;
 use crate::scene::{Obstacle, Scene};
@@ -6,7 +6,7 @@ use crate::scene::{Obstacle, Scene};
 /// The shift (m) of an obstacle that is not there: farther than any arm reaches.
 pub(super) const AWAY: Vector = Vector::new(1e7, 1e7);
 
-/// The obstacles of `scene`, each asked about with its number, standing still: shifted by so much (m), or where the scene has
+/// The obstacles of `scene`, each asked about with its number, as static ones: shifted by so much (m), or where the scene has
 /// them.
 pub(super) fn placed(scene: &Scene, shift: impl Fn(usize, &Obstacle) -> Option<Vector>) -> Vec<Obstacle> {
     let place = |(i, obstacle): (usize, &Obstacle)| {

@@ -14,6 +14,7 @@ use crate::free_space::{NotFree, configurations};
 use crate::planning::{PlanError, motion_limits};
 use crate::scene::{Place, Scene, TwoLinkError};
 use crate::trajectory::{Motion, SpeedLimits, State, TICK};
+use crate::units::{Told, Units};
 use crate::verify::{Verdict, Violation};
 
 /// Why there is no replanner.
@@ -24,18 +25,28 @@ pub enum ReplanError {
     #[error(transparent)]
     Arm(TwoLinkError),
     /// The arm cannot stand at the goal whatever moves.
-    #[error("goal: {0}")]
+    #[error("{}", self.told(Units::SI))]
     Goal(NotFree),
     /// It cannot stand where it is, or numbers are beyond what a search serves.
     #[error(transparent)]
     Routes(#[from] PlanError),
 }
 
+impl Told for ReplanError {
+    fn told(&self, units: Units) -> String {
+        match self {
+            Self::Goal(refused) => format!("goal: {}", refused.told(units)),
+            Self::Routes(error) => error.told(units),
+            Self::Arm(error) => error.to_string(),
+        }
+    }
+}
+
 /// Keeps an arm of two links going to a goal, safely, among obstacles that move.
 ///
 /// What it has the arm run always ends at rest, and is verified in space and time from the arm's present position,
 /// velocity and acceleration: until the arm has come to rest among all obstacles that are known of, and for eight seconds
-/// more among those whose course is known. Obstacles whose course is not known may be anywhere that their greatest speed
+/// more among those whose course is known. Obstacles whose course is not known may be anywhere that their maximum speed
 /// allows.
 pub struct Replanner {
     known: KnownScene,

@@ -10,15 +10,15 @@ use crate::roadmap::{DynamicGraph, Goal, NodeCache};
 use crate::scene::{Obstacle, Scene, SceneProblem, Task};
 use crate::search::{Dstar, Graph, Progress, Until};
 
-/// Expansions of D* between two looks at how far the search has to go.
+/// Expansions of D* between two samples at how far the search has to go.
 const EXPANSIONS_PER_LOOK: usize = 64;
 
-/// Beyond this number of nodes near something that moved, as a share of those ever looked at, a new field costs less than
+/// Beyond this number of nodes near something that moved, as a share of those ever examined, a new field costs less than
 /// the old one repaired: measured on grids of 101 x 101 points.
 const WORTH_REPAIRING: f64 = 0.8;
 
 /// The ways to one task's goals over places and postures, kept up to date while obstacles move: the map of each posture,
-/// what is known of the free configurations and the certified turns between them, and D*'s cost-to-go.
+/// what is known of the free configurations and the certified joint motions between them, and D*'s cost-to-go.
 ///
 /// Where obstacles move, the maps are filled again only where something came or went, only what is near there is
 /// forgotten, and the cost-to-go is repaired, unless most of what it holds may be otherwise. Memory grows with
@@ -61,7 +61,7 @@ pub struct Updated {
 /// A way to the goal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route {
-    /// From the configuration asked about to the goal, by certified straight turns.
+    /// From the configuration asked about to the goal, by certified straight joint motions.
     pub path: JointPath,
     /// Its tip travel over the grid (m).
     pub cost: f64,
@@ -70,14 +70,14 @@ pub struct Route {
 /// Why there is no way to the goal for now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum NoRoute {
-    /// No free point of the grid can be reached by a straight turn from where the arm is.
-    #[error("the arm can turn to no free point of the grid from where it is")]
+    /// No free point of the grid can be reached by a straight joint motion from where the arm is.
+    #[error("no free grid point can be reached by a straight joint motion from where the arm is")]
     Start,
     /// Every goal is blocked.
     #[error("every goal is blocked for now")]
     Goal,
     /// The search found no way over this grid.
-    #[error("there is no way over this grid for now")]
+    #[error("the grid has no path to a goal for now")]
     NotFound,
     /// The caller said no.
     #[error("stopped by the caller")]
@@ -154,7 +154,7 @@ impl Roadmap {
         Ok(self.obstacles_moved(before.obstacles()))
     }
 
-    /// The same for the obstacles that are there, put elsewhere to stand still.
+    /// The same for the obstacles that are there, put elsewhere as static ones.
     pub(super) fn place_obstacles(&mut self, mut obstacles: Vec<Obstacle>) -> Updated {
         let places = self.scene.obstacles_mut().iter_mut().zip(&mut obstacles);
         places.for_each(|(before, now)| std::mem::swap(before, now));
@@ -237,7 +237,7 @@ impl Roadmap {
     }
 
     /// The cost-to-go (m) over every cell, one branch after the other, elbow-up first, and of the goals after that;
-    /// settled everywhere. A posture has one branch, or one for each turn that a joint with stops can be at.
+    /// settled everywhere. A posture has one branch, or one for each turn that a joint with limits can be at.
     pub fn whole_field(&mut self) -> Vec<f64> {
         self.with_graph(|graph, field| {
             field.expand(graph, Until::WholeField, usize::MAX);
@@ -258,7 +258,7 @@ impl Roadmap {
         self.goals = goals;
     }
 
-    /// Does `work` with the graph of the scene as it is now, which has closed forms: [`new`](Self::new) has looked at the arm,
+    /// Does `work` with the graph of the scene as it is now, which has closed forms: [`new`](Self::new) has examined the arm,
     /// and no obstacle is let in with a motion.
     fn with_graph<T>(&mut self, work: impl FnOnce(&DynamicGraph, &mut Dstar) -> T) -> Option<T> {
         let scene = self.scene.two_link().ok()?;

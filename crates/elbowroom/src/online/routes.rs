@@ -44,7 +44,7 @@ impl Routes {
         path(&mut self.past_all, obstacles, from, keep_going)
     }
 
-    /// A path past the obstacles of `scene` that stand still.
+    /// A path past the static obstacles of `scene`.
     pub(super) fn past_still(
         &mut self,
         scene: &Scene,

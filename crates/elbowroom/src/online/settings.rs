@@ -13,7 +13,7 @@ pub(super) const ASTRAY: f64 = 1e-6;
 /// Rates below this are none (rad/s, rad/s²): from such a state a motion begins as if from rest.
 pub(super) const STANDS: f64 = 1e-9;
 
-/// Updates between two looks for a motion that is better than the safe one that runs.
+/// Updates between two samples for a motion that is better than the safe one that runs.
 pub(super) const LOOK_EVERY: u64 = 10;
 
 /// Looks for which it stands that the arm would be caught at a goal, or would not, while the same is known to come there: the search for
@@ -71,7 +71,7 @@ pub(super) const ATTEMPTS: [Attempt; 5] = [
     Attempt { clearance: 0.0005, lattice: 0.03, control: 0.4, vigour: 0.5 },
 ];
 
-/// How near to its greatest speed a joint is taken on such a way.
+/// How near to its maximum speed a joint is taken on such a way.
 pub(super) const PACE: f64 = 0.9;
 
 /// Expansions after which such a search ends with what it has.

@@ -35,7 +35,7 @@ struct Reached {
 /// where it can stay the longest. `None` if it cannot be at `start` when it begins.
 ///
 /// Safe interval path planning (Phillips and Likhachev, 2011): who enters a place sooner in the same interval can do all
-/// that others can, for the arm may wait; so each interval is entered once. Turns are looked at only at their ends.
+/// that others can, for the arm may wait; so each interval is entered once. Turns are examined only at their ends.
 pub(super) fn earliest_safe_place(
     free: &SafeIntervals,
     start: &[f64; 2],
@@ -131,7 +131,7 @@ mod tests {
     const ROOM: f64 = 0.01;
     const HORIZON: f64 = 20.0;
     const LATTICE: Lattice = Lattice { step: 0.4, time: 0.5 };
-    /// Between two looks of the judge (s).
+    /// Between two samples of the check (s).
     const TICK: f64 = 0.025;
     /// No disc gets farther in a tick (m).
     const SLACK: f64 = 0.012;

@@ -7,7 +7,7 @@ use crate::trajectory::{Motion, Piece, brake, departing, fastest_durations, quin
 
 impl Search<'_> {
     /// The safe motion to a goal that arrives first, at least a little before `arrival` (s): at once past the obstacles
-    /// as they are, or past those that stand still, after a wait where it must be.
+    /// as they are, or past the static ones, after a wait where it must be.
     ///
     /// # Errors
     /// Where there is none, motions to a goal of which a first part may be safe.

@@ -54,7 +54,7 @@ impl World {
         self.moving().map(|(i, motion)| self.shift(i, motion)).collect()
     }
 
-    /// The obstacles where they are now, standing still.
+    /// The obstacles where they are now, as static ones.
     pub fn obstacles(&self) -> Vec<Obstacle> {
         placed(&self.scene, |i, obstacle| obstacle.motion.as_ref().map(|motion| self.shift(i, motion)))
     }

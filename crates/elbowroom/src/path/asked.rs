@@ -1,6 +1,6 @@
 use super::clearance::CERTIFIED_CLEARANCE;
 
-/// Clearances looked at per link and what it must not touch before a move is given up as not free: a move of a metre that
+/// Clearances examined per link and what it must not touch before a move is given up as not free: a move of a metre that
 /// stays within 8e-6 m of an obstacle all along may use them up, one that only passes by does not.
 const MOST_LOOKS: u32 = 1 << 17;
 

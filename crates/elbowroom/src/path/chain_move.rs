@@ -79,7 +79,7 @@ struct Bisection<'a> {
     open: SmallVec<[Open; 8]>,
     /// Positions of all joints (rad) at the ends of the stretch at hand and of those it is part of.
     places: SmallVec<[f64; 32]>,
-    /// The arm at the place looked at last, as far as was asked.
+    /// The arm at the place examined last, as far as was asked.
     links: Links,
 }
 
@@ -181,7 +181,7 @@ impl<'a> Bisection<'a> {
         middle
     }
 
-    /// Clearance at the place looked at last, beyond what is to be kept (m).
+    /// Clearance at the place examined last, beyond what is to be kept (m).
     fn clearance(&self, pair: Pair) -> f64 {
         let (links, half_width) = (&self.links, self.arm.half_width());
         let clearance = match pair {

@@ -12,7 +12,7 @@ use crate::scene::{Place, TwoLinkScene};
 pub enum JumpKind {
     /// Change the posture with the links not in line.
     Posture,
-    /// Turn a joint across its stops.
+    /// Turn a joint beyond its limits.
     Stop {
         /// 1 for the joint at the base.
         joint: usize,
@@ -54,7 +54,7 @@ pub enum FollowError {
 
 /// Configurations along `path` with the fewest jumps and, among those, the least joint travel.
 ///
-/// Places are taken one by one: whether the motion between them is free is not looked at.
+/// Places are taken one by one: whether the motion between them is free is not examined.
 ///
 /// # Errors
 /// [`FollowError`] when a place has no free configuration.

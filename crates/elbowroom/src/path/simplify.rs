@@ -29,7 +29,7 @@ pub fn simplify<Q: AsRef<[f64]>>(arm: &Arm, places: &[Q], tolerance: f64) -> Vec
     (0..places.len()).filter(|&i| kept[i]).collect()
 }
 
-/// How far ends of links at `q` are from where the straight turn from `from` to `to` has them when it is
+/// How far ends of links at `q` are from where the straight joint motion from `from` to `to` has them when it is
 /// nearest to `q` in configuration space (m).
 fn deviation(arm: &Arm, from: &[f64], to: &[f64], q: &[f64]) -> f64 {
     let (mut along, mut squared) = (0.0, 0.0);

@@ -10,7 +10,7 @@ use crate::scene::{Obstacle, Scene};
 /// By bisection with a bound on the motion: over a stretch whose points move by no more than `b`, links that are clear
 /// by `c0` at one end and `c1` at the other are clear all the way if `c0 + c1 > b`. `false` also when a clearance comes
 /// down to [`CERTIFIED_CLEARANCE`](super::CERTIFIED_CLEARANCE), or cannot be told from it in bounded work, and where an
-/// obstacle of the scene moves. Joint limits are not looked at: between two configurations within them there is no other.
+/// obstacle of the scene moves. Joint limits are not examined: between two configurations within them there is no other.
 ///
 /// # Panics
 /// Unless both have a position for each joint.

@@ -1,4 +1,4 @@
-//! A swarm over way-points whose first particles are shaken where the straight way is bad, in the style of NSC-PSO.
+//! A swarm over waypoints whose first particles are perturbed where the straight path is bad, in the style of NSC-PSO.
 
 use rand_chacha::ChaCha8Rng;
 
@@ -10,17 +10,17 @@ use crate::swarm::{Neighbourhood, SwarmSettings};
 /// Where the first particles are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Initialisation {
-    /// On the straight way, shaken where its normalised step cost is great.
+    /// On the straight path, perturbed where its normalised step cost is great.
     StepCost,
     /// Anywhere: the ablation.
     Uniform,
 }
 
-/// `nsc-pso`: a swarm whose particles are `waypoints` configurations, joined by straight moves, shaken at first where the straight
+/// `nsc-pso`: a swarm whose particles are `waypoints` configurations, joined by straight moves, perturbed at first where the straight
 /// way is bad.
 ///
 /// A step's cost is how deep in contact the arm is there times the way of its points; divided by the greatest it tells how
-/// much noise a way-point starts with. The noise is smooth: it has the covariance (AᵀA)⁻¹ of STOMP, with A the matrix of
+/// much noise a waypoint starts with. The noise is smooth: it has the covariance (AᵀA)⁻¹ of STOMP, with A the matrix of
 /// second differences, and the same matrix smooths the velocities of all particles.
 ///
 /// # Reference
@@ -45,10 +45,10 @@ impl Default for NscPsoPlanner {
 /// Iterations over which a swarm's inertia falls.
 const ITERATIONS: usize = 200;
 
-/// Greatest shake of a way-point (rad): each particle has its own share of it.
+/// Largest perturbation of a waypoint (rad): each particle has its own share of it.
 const SHAKE: f64 = 7.0;
 
-/// Part of the shaking that does not heed the step cost, so that a way that is free all along is varied too.
+/// Part of the shaking that does not regard the step cost, so that a way that is free all along is varied too.
 const LEAST_SHAKE: f64 = 0.05;
 
 impl Planner for NscPsoPlanner {
@@ -95,7 +95,7 @@ impl Planner for NscPsoPlanner {
         let first = |choice: &EndpointChoice, objective: &PathObjective<'_>, rng: &mut ChaCha8Rng| match self
             .initialisation
         {
-            Initialisation::StepCost => shaken(choice, objective, self.waypoints, count, rng),
+            Initialisation::StepCost => perturbed(choice, objective, self.waypoints, count, rng),
             Initialisation::Uniform => Vec::new(),
         };
         let (smoothing, joints) = (Smoothing::new(self.waypoints), problem.scene.arm().links());
@@ -104,8 +104,8 @@ impl Planner for NscPsoPlanner {
     }
 }
 
-/// Particles on straight ways, shaken where these are in contact.
-fn shaken(
+/// Particles on straight paths, perturbed where these are in contact.
+fn perturbed(
     choice: &EndpointChoice,
     path_objective: &PathObjective<'_>,
     waypoints: usize,
@@ -182,7 +182,7 @@ impl Smoothing {
         Self { rows }
     }
 
-    /// Smooths what way-points after each other, of so many `joints` each, have in `velocity`; what comes after them stays.
+    /// Smooths what waypoints after each other, of so many `joints` each, have in `velocity`; what comes after them stays.
     fn smooth(&self, velocity: &mut [f64], joints: usize) {
         for j in 0..joints {
             let of_joint: Vec<f64> = (0..self.rows.len()).map(|k| velocity[k * joints + j]).collect();

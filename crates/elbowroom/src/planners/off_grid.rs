@@ -19,7 +19,7 @@ const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
 const SOFT_MARGINS: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
 
 /// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
-/// to be looked for, unless a gap is asked for.
+/// to be sought, unless a gap is asked for.
 const NEAR_ENOUGH: f64 = 0.007;
 
 /// Longest turn of a straight line of the tip, in grid steps.
@@ -28,12 +28,12 @@ const TIP_TURN: f64 = 0.5;
 /// Two turns one after the other are one where the place between them is this near to the straight one (rad).
 const STRAIGHT: f64 = 1e-9;
 
-/// How closely paths over the joints are looked for.
+/// How closely paths over the joints are sought.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Search {
     /// How far they stay away from what is forbidden (rad).
     pub(crate) distance: f64,
-    /// Joint travel (rad) with which no other path is looked for.
+    /// Joint travel (rad) with which no other path is sought.
     pub(crate) enough: Option<f64>,
 }
 
@@ -45,7 +45,7 @@ impl Search {
 }
 
 /// Taut paths over the joints that stay a distance away from what is forbidden, by objective: joint travel, or time with
-/// each joint at its greatest speed.
+/// each joint at its maximum speed.
 pub(crate) fn over_joints(
     scene: TwoLinkScene<'_>,
     ends: &Endpoints,
@@ -159,7 +159,7 @@ fn along(path: &Geodesic, starts: &[([f64; 2], MeshPoint)]) -> Option<JointPath>
     (places.len() > 1).then(|| joint_path(&places))
 }
 
-/// Whether `middle` lies on the straight turn from `from` to `to`, nearly.
+/// Whether `middle` lies on the straight joint motion from `from` to `to`, nearly.
 fn is_straight(from: &[f64; 2], middle: &[f64; 2], to: &[f64; 2]) -> bool {
     let [a, b] = [0, 1].map(|j| middle[j] - from[j]);
     let [c, d] = [0, 1].map(|j| to[j] - from[j]);

@@ -4,6 +4,7 @@ use super::off_grid::{Search, over_joints};
 use super::shortlist::shortlist;
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
+use crate::grid::Grid;
 use crate::path::JointPath;
 use crate::planning::{
     Candidate, Effort, Found, Objective, PathToFollow, Pick, PlanError, Problem, Stage, least_cost,
@@ -37,7 +38,7 @@ pub(super) enum Choice<'a> {
 /// [`paths_over_grid`]; where there are none, a try to prove that there is no path at all.
 ///
 /// # Errors
-/// [`PlanError::NoPath`] where that is proved, else [`PlanError::NotFound`]; [`PlanError::Stopped`]
+/// [`PlanError::NoPath`] where that is proved, [`PlanError::OutsideGrid`], else [`PlanError::NotFound`]; [`PlanError::Stopped`]
 pub(super) fn over_grid(
     problem: &Problem<'_>,
     planner: &str,
@@ -48,6 +49,9 @@ pub(super) fn over_grid(
         other => return other,
     };
     let scene = problem.two_link(planner)?;
+    if let Some(outside) = outside_grid(problem, scene.grid()) {
+        return Err(outside);
+    }
     for distance in DISTANCES {
         least_cost(problem, distance)?;
         // Where there is a path off the grid nothing can be proved against one.
@@ -60,6 +64,18 @@ pub(super) fn over_grid(
         }
     }
     Err(not_found)
+}
+
+/// The end of the task that no point of the grid is near, if there is one.
+fn outside_grid(problem: &Problem<'_>, grid: &Grid) -> Option<PlanError> {
+    let [starts, goals] = problem.endpoints.pairs();
+    [("start", starts), ("goal", goals)].into_iter().find_map(|(end, places)| {
+        let tips: Vec<Point> = places.iter().map(|q| problem.scene.arm().tip(q)).collect();
+        let outside = tips.iter().all(|&tip| grid.corners(tip).next().is_none());
+        let tip = *tips.first().filter(|_| outside)?;
+        let [x, y] = [[grid.x(0), grid.x(grid.columns() - 1)], [grid.y(0), grid.y(grid.rows() - 1)]];
+        Some(PlanError::OutsideGrid { end, tip, x, y })
+    })
 }
 
 /// D*'s own paths over places and postures, and of those that a swarm draws, if one shall, the ones that promise most.

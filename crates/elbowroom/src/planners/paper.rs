@@ -7,12 +7,13 @@ use crate::arm::Configuration;
 use crate::free_space::{FreeSpace, NotFree, configurations};
 use crate::geometry::Point;
 use crate::path::{FollowError, JointPath, Jump, TipPath, follow};
-use crate::planning::{LONGEST_DURATION, Monitor, SHORTEST_DURATION, Stage, is_duration, standing_still};
+use crate::planning::{FINER, LONGEST_DURATION, Monitor, SHORTEST_DURATION, Stage, is_duration, static_only};
 use crate::roadmap::UnionGraph;
 use crate::scene::{Place, Scene, Task, TwoLinkError, TwoLinkScene};
 use crate::search::{Dstar, GoalError, Graph, Until};
 use crate::swarm::{GuidedSwarmError, GuidedSwarmSettings, Terrain, draw_paths};
 use crate::trajectory::{Motion, MotionError, durations_by_length, quintic_through, random_vias, vias_at};
+use crate::units::{Told, Units};
 
 /// Which path over the cost-to-go is taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +70,7 @@ pub struct PaperPlan {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PaperError {
     /// An obstacle of the scene moves.
-    #[error("{}", standing_still(*obstacle, name.as_deref()))]
+    #[error("{}", static_only(*obstacle, name.as_deref()))]
     Moving {
         /// Its number, from 0.
         obstacle: usize,
@@ -92,13 +93,13 @@ pub enum PaperError {
         duration: f64,
     },
     /// The task begins at a place that is not free.
-    #[error("start: {0}")]
+    #[error("{}", self.told(Units::SI))]
     Start(NotFree),
     /// The task ends at a place that is not free.
-    #[error("goal: {0}")]
+    #[error("{}", self.told(Units::SI))]
     Goal(NotFree),
     /// The grid does not connect start and goal; a finer one may.
-    #[error("not found at this resolution: no path over the free grid points, {step} m apart")]
+    #[error("{}", self.told(Units::SI))]
     NotFound {
         /// Distance between grid points (m).
         step: f64,
@@ -115,6 +116,20 @@ pub enum PaperError {
     /// The polynomials overflow.
     #[error(transparent)]
     Motion(#[from] MotionError),
+}
+
+impl Told for PaperError {
+    fn told(&self, units: Units) -> String {
+        match self {
+            Self::Start(refused) => format!("start: {}", refused.told(units)),
+            Self::Goal(refused) => format!("goal: {}", refused.told(units)),
+            &Self::NotFound { step } => format!(
+                "not found at this resolution: no path over the free grid points, {} apart; {FINER}",
+                units.stated_length(step)
+            ),
+            other => other.to_string(),
+        }
+    }
 }
 
 /// Plans `task` the paper's way.

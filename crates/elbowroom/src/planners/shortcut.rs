@@ -36,7 +36,7 @@ pub(crate) struct Shortcut<'a> {
 }
 
 impl Shortcut<'_> {
-    /// `path` pulled taut; every straight turn of the result is certified. `None` if `keep_going` said no.
+    /// `path` pulled taut; every straight joint motion of the result is certified. `None` if `keep_going` said no.
     pub(crate) fn taut(&self, path: &JointPath, keep_going: &dyn Fn() -> bool) -> Option<JointPath> {
         let mut corners = self.galloped(&pairs(&path.0));
         let mut before = self.length(&corners);

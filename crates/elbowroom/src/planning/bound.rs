@@ -32,7 +32,7 @@ const TRIED: [f64; 3] = [1.0, 0.3, 3.0];
 pub(crate) fn least_cost(problem: &Problem<'_>, distance: f64) -> Result<Option<f64>, PlanError> {
     let Ok(scene) = problem.scene.two_link() else { return Ok(None) };
     problem.monitor.stage(Stage::Bound);
-    // A duration that was asked for heeds only the limits that the scene states.
+    // A duration that was asked for regards only the limits that the scene states.
     let stated;
     let limits = match problem.settings.pace {
         Pace::Fastest => &problem.limits,
@@ -171,7 +171,7 @@ fn on_chart(
     places.iter().filter(|q| is_in(scene, range, q)).map(place).collect()
 }
 
-/// Whether the second joint of `q` lies in `range` (rad), whole turns of a continuous one aside.
+/// Whether the second joint of `q` lies in `range` (rad), whole revolutions of a continuous one aside.
 fn is_in(scene: TwoLinkScene<'_>, range: [f64; 2], q: &[f64; 2]) -> bool {
     let angle = match scene.arm().joints()[1].limits {
         JointLimits::Continuous => wrap_angle(q[1]),

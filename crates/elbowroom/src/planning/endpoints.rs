@@ -20,7 +20,7 @@ const ENOUGH: usize = 16;
 /// Configurations nearer to each other than this are one (rad).
 const DIFFERENT: f64 = 0.1;
 
-/// Angles drawn for a joint whose stops are farther from 0 than this are drawn as if they stood there (rad).
+/// Angles drawn for a joint whose limits are farther from 0 than this are drawn as if they stood there (rad).
 const WIDEST_DRAW: f64 = std::f64::consts::PI;
 
 /// A task in configurations: any of the starts will do, and any of the goals.

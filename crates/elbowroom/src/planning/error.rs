@@ -4,25 +4,30 @@ use super::{LONGEST_DURATION, Mismatch, NoPath, SHORTEST_DURATION};
 use crate::arm::Posture;
 use crate::free_space::NotFree;
 use crate::geometry::Point;
-use crate::scene::{TwoLinkError, in_words};
+use crate::scene::{TwoLinkError, obstacle_in_words};
 use crate::search::GoalError;
 use crate::trajectory::MotionError;
+use crate::units::{Told, Units, stated};
 use crate::verify::Verdict;
 
 /// What planners say of a scene in which an obstacle moves.
-pub(crate) fn standing_still(obstacle: usize, name: Option<&str>) -> String {
-    let which = in_words(obstacle, name);
+pub(crate) fn static_only(obstacle: usize, name: Option<&str>) -> String {
+    let which = obstacle_in_words(obstacle, name);
     format!(
-        "planners take obstacles to stand still; {which} moves: the command follow and Replanner serve those that move"
+        "plan supports static obstacles only, and {which} moves; use elbowroom follow, or Replanner in Python"
     )
 }
+
+/// What may help where a grid connects nothing.
+pub(crate) const FINER: &str =
+    "a finer grid step may find one, or, for 2 links, planner optimal, which needs no grid";
 
 /// Why there is no plan.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlanError {
     /// An obstacle of the scene moves.
-    #[error("{}", standing_still(*obstacle, name.as_deref()))]
+    #[error("{}", static_only(*obstacle, name.as_deref()))]
     Moving {
         /// Its number, from 0.
         obstacle: usize,
@@ -62,10 +67,10 @@ pub enum PlanError {
         fastest: f64,
     },
     /// The task begins at a place that is not free.
-    #[error("start: {0}")]
+    #[error("{}", self.told(Units::SI))]
     Start(NotFree),
     /// The task ends at a place that is not free.
-    #[error("goal: {0}")]
+    #[error("{}", self.told(Units::SI))]
     Goal(NotFree),
     /// The goal is free, but not in the posture asked for.
     #[error("goal: not free {}, the posture asked for", wanted.name())]
@@ -74,13 +79,25 @@ pub enum PlanError {
         wanted: Posture,
     },
     /// The grid does not connect start and goal; a finer one may.
-    #[error("not found at this resolution: no certified path over the free grid points, {step} m apart")]
+    #[error("{}", self.told(Units::SI))]
     NotFound {
         /// Distance between grid points (m).
         step: f64,
     },
+    /// The planner searches the grid, and an end of the task lies beyond it.
+    #[error("{}", self.told(Units::SI))]
+    OutsideGrid {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// Where its tip is (m).
+        tip: Point,
+        /// What the grid ranges over along x (m).
+        x: [f64; 2],
+        /// The same along y (m).
+        y: [f64; 2],
+    },
     /// What the planner took to be free, this much less than all that is, does not connect start and goal.
-    #[error("not found at this resolution: no certified path {distance} rad away from all obstacles")]
+    #[error("{}", self.told(Units::SI))]
     NotFoundOverJoints {
         /// Least distance kept from forbidden angles (rad).
         distance: f64,
@@ -104,7 +121,7 @@ pub enum PlanError {
         links: usize,
     },
     /// No free configuration was found for an end of the task; there may be one.
-    #[error("{end}: no free configuration found that puts the tip at ({} m, {} m), in {tries} tries", tip.x, tip.y)]
+    #[error("{}", self.told(Units::SI))]
     EndNotFound {
         /// `start` or `goal`.
         end: &'static str,
@@ -115,7 +132,8 @@ pub enum PlanError {
     },
     /// No candidate was free of contact; a greater budget may find one.
     #[error(
-        "not found in {evaluations} evaluations: the best candidate still is in contact or beyond limits"
+        "not found in {evaluations} evaluations: the best candidate is still in contact or beyond limits; a larger budget of \
+         evaluations may find one"
     )]
     NotFoundInBudget {
         /// How many candidates were judged.
@@ -166,7 +184,7 @@ pub enum PlanError {
         from: usize,
     },
     /// The verifier does not accept the motion: the planner was wrong.
-    #[error("planner {planner}: its motion is not proved to be safe: {}", complaints(verdict))]
+    #[error("{}", self.told(Units::SI))]
     Refused {
         /// Its name.
         planner: String,
@@ -174,7 +192,7 @@ pub enum PlanError {
         verdict: Box<Verdict>,
     },
     /// The motion is safe and does something else: the planner was wrong.
-    #[error("planner {planner}: {mismatch}")]
+    #[error("{}", self.told(Units::SI))]
     Mismatch {
         /// Its name.
         planner: String,
@@ -184,7 +202,7 @@ pub enum PlanError {
 }
 
 impl PlanError {
-    /// Why `planner`, for two links among obstacles that stand still, does not serve a scene.
+    /// Why `planner`, for two links among static obstacles, does not serve a scene.
     pub(crate) fn not_two_link(planner: &str, error: TwoLinkError) -> Self {
         match error {
             TwoLinkError::Links { found } => {
@@ -203,8 +221,49 @@ fn links_in_words(least: usize, most: usize) -> String {
     }
 }
 
+impl Told for PlanError {
+    fn told(&self, units: Units) -> String {
+        match self {
+            Self::Start(refused) => format!("start: {}", refused.told(units)),
+            Self::Goal(refused) => format!("goal: {}", refused.told(units)),
+            &Self::NotFound { step } => format!(
+                "not found at this resolution: no certified path over the free grid points, {} apart; {FINER}",
+                units.stated_length(step)
+            ),
+            Self::OutsideGrid { end, tip, x, y } => {
+                let range =
+                    |[min, max]: [f64; 2]| [min, max].map(|value| stated(units.of_metres(value))).join(", ");
+                format!(
+                    "{end} {} lies outside the grid, x [{}], y [{}] {}; extend the grid, or use planner optimal, which needs none",
+                    units.place(tip.x, tip.y),
+                    range(*x),
+                    range(*y),
+                    units.length.name()
+                )
+            }
+            &Self::NotFoundOverJoints { distance } => format!(
+                "not found at this resolution: no certified path that keeps joint angles {} away from all obstacles, and narrower \
+                 passages are not searched",
+                units.angle(distance)
+            ),
+            Self::EndNotFound { end, tip, tries } => format!(
+                "{end}: no free configuration found that puts the tip at {}, in {tries} tries",
+                units.place(tip.x, tip.y)
+            ),
+            Self::Refused { planner, verdict } => {
+                format!(
+                    "planner {planner}: its motion is not proved to be safe: {}",
+                    complaints(verdict, units)
+                )
+            }
+            Self::Mismatch { planner, mismatch } => format!("planner {planner}: {}", mismatch.told(units)),
+            other => other.to_string(),
+        }
+    }
+}
+
 /// The first things that the verifier complains about.
-fn complaints(verdict: &Verdict) -> String {
-    let said: Vec<String> = verdict.violations.iter().take(2).map(ToString::to_string).collect();
-    said.join("; ")
+fn complaints(verdict: &Verdict, units: Units) -> String {
+    let said = verdict.violations.iter().take(2).map(|violation| violation.told_of(None, units, 0.0));
+    said.collect::<Vec<String>>().join("; ")
 }

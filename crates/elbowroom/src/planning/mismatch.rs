@@ -6,6 +6,7 @@ use crate::arm::{Arm, JointLimits, Posture};
 use crate::geometry::wrap_angle;
 use crate::scene::{Place, Scene, Task, TaskPosture};
 use crate::trajectory::Motion;
+use crate::units::{Told, Units, apart, measured};
 
 /// How far from its place, or from rest, a motion may begin or end (m, rad, rad/s): room for rounding in files and conversions.
 pub const END_ROUNDING: f64 = 1e-6;
@@ -23,7 +24,7 @@ pub enum Mismatch {
         joints: usize,
     },
     /// It begins or ends elsewhere.
-    #[error("the motion is {} {unit} from the {end}", short(*distance))]
+    #[error("{}", self.told(Units::SI))]
     Elsewhere {
         /// `start` or `goal`.
         end: &'static str,
@@ -32,8 +33,8 @@ pub enum Mismatch {
         /// `m` for a tip, `rad` for a configuration.
         unit: &'static str,
     },
-    /// It begins or ends while joints turn.
-    #[error("the motion is not at rest at the {end}: a joint turns at {} rad/s", short(*velocity))]
+    /// It begins or ends while joints move.
+    #[error("{}", self.told(Units::SI))]
     Turning {
         /// `start` or `goal`.
         end: &'static str,
@@ -41,7 +42,7 @@ pub enum Mismatch {
         velocity: f64,
     },
     /// It takes another time than was asked for.
-    #[error("the motion takes {} s, {asked} s were asked for", short(*takes))]
+    #[error("the motion takes {} s, {} s were asked for", apart(*takes, *asked)[0], apart(*takes, *asked)[1])]
     Duration {
         /// What it takes (s).
         takes: f64,
@@ -64,9 +65,23 @@ pub enum Mismatch {
     },
 }
 
-/// Six places behind the point, without the noughts at their end.
-fn short(number: f64) -> String {
-    format!("{number:.6}").trim_end_matches('0').trim_end_matches('.').to_owned()
+impl Told for Mismatch {
+    fn told(&self, units: Units) -> String {
+        match *self {
+            Self::Elsewhere { end, distance, unit } => {
+                let distance = if unit == "m" { units.length(distance) } else { units.angle(distance) };
+                format!("the motion is {distance} from the {end}")
+            }
+            Self::Turning { end, velocity } => {
+                let velocity = measured(units.of_radians(velocity));
+                format!(
+                    "the motion is not at rest at the {end}: a joint moves at {velocity} {}",
+                    units.rate_name(1)
+                )
+            }
+            _ => self.to_string(),
+        }
+    }
 }
 
 /// How `motion`, whose posture changes at `posture_changes` (s), fails to do `task` of `scene`; `None` if it does it.
@@ -103,7 +118,7 @@ pub fn mismatch(scene: &Scene, task: &Task, motion: &Motion, posture_changes: &[
     Some(Mismatch::GoalPosture { found, wanted })
 }
 
-/// How far the arm at `q` is from `place`, and in what unit; whole turns of continuous joints aside.
+/// How far the arm at `q` is from `place`, and in what unit; whole revolutions of continuous joints aside.
 fn away(arm: &Arm, place: &Place, q: &[f64]) -> (f64, &'static str) {
     match place {
         Place::Tip(tip) => (arm.tip(q).distance(*tip), "m"),

@@ -34,7 +34,7 @@ pub use duration::{LONGEST_DURATION, SHORTEST_DURATION};
 pub use effort::Effort;
 pub use endpoints::Endpoints;
 pub use error::PlanError;
-pub(crate) use error::standing_still;
+pub(crate) use error::{FINER, static_only};
 pub(crate) use limits::motion_limits;
 pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use mismatch::{END_ROUNDING, Mismatch, mismatch};

@@ -74,7 +74,7 @@ impl Objective {
         }
     }
 
-    /// What a motion through `looks`, of this `duration` (s), is taken to cost: the way from look to look is straight.
+    /// What a motion through `looks`, of this `duration` (s), is taken to cost: the way from sample to sample is straight.
     pub(crate) fn of_looks(self, arm: &Arm, looks: &[Vec<f64>], duration: f64) -> f64 {
         match self {
             Self::Tip => {
@@ -183,7 +183,7 @@ impl Objective {
 }
 
 /// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
-/// again: one of them covers all of it, and has to speed up and slow down. A joint without a greatest speed takes no time.
+/// again: one of them covers all of it, and has to speed up and slow down. A joint without a maximum speed takes no time.
 fn from_rest_to_rest(way: f64, limits: &[SpeedLimits]) -> f64 {
     let least = |limit: &SpeedLimits| {
         let speeding_up = limit.velocity / limit.acceleration;

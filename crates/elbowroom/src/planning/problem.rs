@@ -2,7 +2,7 @@ use super::{AssumedLimit, Endpoints, Monitor, PlanError, PlanSettings, motion_li
 use crate::scene::{Scene, Task, TwoLinkScene};
 use crate::trajectory::SpeedLimits;
 
-/// What a planner is given to search: a task in a scene whose obstacles stand still, in configurations.
+/// What a planner is given to search: a task in a scene whose obstacles are static, in configurations.
 #[non_exhaustive]
 pub struct Problem<'a> {
     /// Arm and obstacles.

@@ -1,4 +1,4 @@
-//! From certified straight turns to a smooth motion that the verifier accepts.
+//! From certified straight joint motions to a smooth motion that the verifier accepts.
 
 use super::{Mismatch, Monitor, Pace, PlanError};
 use crate::arm::Configuration;
@@ -9,7 +9,7 @@ use crate::trajectory::{
 };
 use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 
-/// Rounds of adding vias; after them every refused stretch becomes straight turns from stop to stop.
+/// Rounds of adding vias; after them every refused stretch becomes straight joint motions from stop to stop.
 const ROUNDS: usize = 24;
 
 /// How a motion begins as.
@@ -20,7 +20,7 @@ pub(super) enum Style {
         /// In grid steps.
         tolerance: f64,
     },
-    /// The path itself: straight turns from place to place, with a stop at each.
+    /// The path itself: straight joint motions from place to place, with a stop at each.
     StopToStop,
 }
 
@@ -41,7 +41,7 @@ pub(super) enum SmoothError {
     TooFast { fastest: f64 },
     /// Numbers overflow.
     Motion(MotionError),
-    /// Even straight turns from stop to stop are refused, which certified turns should not be.
+    /// Even straight joint motions from stop to stop are refused, which certified joint motions should not be.
     Refused(Box<Verdict>),
     /// Even those change the posture (at this time, s), though it is to be kept.
     PostureChanged { time: f64 },
@@ -63,7 +63,7 @@ impl SmoothError {
     }
 }
 
-/// A motion through places of a path, whose straight turns from place to place are certified free.
+/// A motion through places of a path, whose straight joint motions from place to place are certified free.
 ///
 /// Quintic pieces through few vias at first; where the verifier refuses a piece, or it changes a posture that is to be kept,
 /// places between its ends become vias too, and where none is left the piece is turned straight, from stop to stop.

@@ -10,10 +10,10 @@ use crate::scene::TwoLinkScene;
 /// Rounding in the count of turns: a range of exactly one turn has one branch, not two.
 const TURN_ROUNDING: f64 = 1e-9;
 
-/// Most that a joint turns in one step (rad): at half a turn rounding would say which way round.
+/// Most that a joint turns in one step (rad): at half a revolution rounding would say which way round.
 const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
 
-/// The free configurations over the grid, laid out by solution branch, one per posture, and more where a joint with stops can
+/// The free configurations over the grid, laid out by solution branch, one per posture, and more where a joint with limits can
 /// turn more than once round. What is asked of a node is worked out once and kept; a node never asked for costs
 /// four bytes.
 pub(crate) struct BranchGrid<'a> {
@@ -46,7 +46,7 @@ pub(crate) struct CachedNode {
     pub(crate) is_near_edge: bool,
     /// Whether obstacles moved near by: all but `q` has to be worked out again, if the node is free at all.
     is_due: bool,
-    /// The edges from here, a bit each: looked at, and certified.
+    /// The edges from here, a bit each: examined, and certified.
     known: u32,
     certified: u32,
 }
@@ -294,8 +294,8 @@ fn turns(limits: &JointLimits) -> usize {
 }
 
 /// The configuration that `to` is when the joints turn there from `from` directly: a continuous joint the
-/// short way, with its turns counted; one with stops by the plain difference. `None` when a joint would
-/// turn by half a turn or more, which no single step of a path needs.
+/// short way, with its turns counted; one with limits by the plain difference. `None` when a joint would
+/// turn by half a revolution or more, which no single step of a path needs.
 pub(crate) fn direct(arm: &TwoLink, from: &[f64; 2], to: &[f64; 2]) -> Option<[f64; 2]> {
     let steps = arm.difference(from, to);
     let short = steps[0].abs() <= MOST_TURN && steps[1].abs() <= MOST_TURN;

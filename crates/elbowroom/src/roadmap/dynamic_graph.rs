@@ -60,7 +60,7 @@ impl<'a> DynamicGraph<'a> {
         cells..cells + self.goals.len()
     }
 
-    /// `configurations` as goals of this graph, whose edges are looked at now.
+    /// `configurations` as goals of this graph, whose edges are examined now.
     pub(crate) fn goals_at(&self, configurations: &[[f64; 2]]) -> Vec<Goal> {
         let graph = &self.graph;
         let goal = |&q: &[f64; 2]| {
@@ -110,7 +110,7 @@ impl<'a> DynamicGraph<'a> {
 
     /// Tells `field` of all edges of `nodes` that may make a difference to it, and of those of the goals.
     ///
-    /// An edge that no way leads along, and that could not shorten one, is looked at when the search asks.
+    /// An edge that no way leads along, and that could not shorten one, is examined when the search asks.
     pub(crate) fn tell(&self, field: &mut Dstar, nodes: &[usize]) {
         for (node, goal) in self.goal_nodes().zip(self.goals) {
             goal.joined.iter().for_each(|join| field.step_changed(node, join.node, join.cost_now()));
@@ -181,7 +181,7 @@ impl<'a> DynamicGraph<'a> {
         joined
     }
 
-    /// The configurations from `q` along `nodes`, joined by certified straight turns.
+    /// The configurations from `q` along `nodes`, joined by certified straight joint motions.
     pub(crate) fn joint_path(&self, q: &[f64; 2], nodes: &[usize]) -> Option<JointPath> {
         let mut configurations = vec![*q];
         for &node in nodes {

@@ -1,6 +1,6 @@
 //! Graphs that planners search: free configurations over a grid, one layer per solution branch, and the moves between them.
 //!
-//! A solution branch is a posture, and for a joint with stops more than a turn apart each turn it can be at.
+//! A solution branch is a posture, and for a joint with limits more than a turn apart each turn it can be at.
 
 mod branch_grid;
 mod clearance_cache;

@@ -25,7 +25,7 @@ const MOST_HALVINGS: u32 = 3;
 /// grid points, in both postures, and the exact start and goal configurations; edges are certified sweeps.
 ///
 /// Along a branch a node has its eight neighbours. Near full stretch and fold it also has those of the other
-/// branches: the straight turn passes through the line of links there, which is where a posture can change.
+/// branches: the straight joint motion passes through the line of links there, which is where a posture can change.
 /// Edges are certified when first asked for, and the answer is kept.
 pub(crate) struct PostureGraph<'a> {
     pub(super) scene: TwoLinkScene<'a>,
@@ -59,7 +59,7 @@ impl<'a> PostureGraph<'a> {
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
-    /// around its tip and to the places already there, as far as the straight turns are certified.
+    /// around its tip and to the places already there, as far as the straight joint motions are certified.
     pub(crate) fn insert(&mut self, q: [f64; 2]) -> usize {
         let node = self.len();
         let tip = self.scene.arm().tip(&q);
@@ -103,14 +103,14 @@ impl<'a> PostureGraph<'a> {
         }
     }
 
-    /// The configurations along `nodes`, joined by certified straight turns, the turns of continuous joints
+    /// The configurations along `nodes`, joined by certified straight joint motions, the turns of continuous joints
     /// counted; `None` when two nodes are no neighbours.
     pub(crate) fn joint_path(&self, nodes: &[usize]) -> Option<JointPath> {
         let places = nodes.iter().map(|&node| self.configuration(node)).collect::<Option<Vec<_>>>()?;
         self.turns_through(&places)
     }
 
-    /// The same for configurations that have certified turns from each to the next.
+    /// The same for configurations that have certified joint motions from each to the next.
     pub(super) fn turns_through(&self, configurations: &[[f64; 2]]) -> Option<JointPath> {
         let mut places: Vec<[f64; 2]> = Vec::with_capacity(configurations.len());
         for &to in configurations {
@@ -152,7 +152,7 @@ impl<'a> PostureGraph<'a> {
             || self.connect_bent(from, &to, halvings, between)
     }
 
-    /// [`connect`](Self::connect), where the straight turn to `to` is not free.
+    /// [`connect`](Self::connect), where the straight joint motion to `to` is not free.
     fn connect_bent(
         &self,
         from: &[f64; 2],

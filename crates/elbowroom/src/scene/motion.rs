@@ -1,11 +1,12 @@
 use thiserror::Error;
 
 use crate::geometry::Vector;
+use crate::units::{Told, Units, apart};
 
-/// The most way-points of one moving obstacle.
+/// The most waypoints of one moving obstacle.
 pub const MOST_WAYPOINTS: usize = 10_000;
 
-/// Latest time and greatest speed and shift that are served (s, m/s, m): beyond them numbers lose the digits the
+/// Latest time and maximum speed and shift that are served (s, m/s, m): beyond them numbers lose the digits the
 /// checks rely on.
 const GREATEST: f64 = 1e6;
 
@@ -21,7 +22,7 @@ pub struct ObstacleMotion {
 /// Where a moving obstacle is, as a shift from where the scene has it (m).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Course {
-    /// Straight from way-point to way-point; still before the first and after the last.
+    /// Straight from waypoint to waypoint; still before the first and after the last.
     Waypoints(Vec<Waypoint>),
     /// Still until `start`, then on and on at one velocity.
     Drift {
@@ -30,7 +31,7 @@ pub enum Course {
         /// In m/s.
         velocity: Vector,
     },
-    /// Towards the arm's tip, wherever it goes, at the greatest speed, but no nearer to any link than `keep_off` (m);
+    /// Towards the arm's tip, wherever it goes, at the maximum speed, but no nearer to any link than `keep_off` (m);
     /// nobody knows beforehand where that is.
     Chase {
         /// Distance at which it stops (m).
@@ -38,7 +39,7 @@ pub enum Course {
     },
     /// Not there, as far as anyone knows.
     Absent,
-    /// Nobody knows: from where it was seen it may have gone anywhere at its greatest speed.
+    /// Nobody knows: from where it was seen it may have gone anywhere at its maximum speed.
     Unknown {
         /// When it was seen (s).
         seen: f64,
@@ -70,14 +71,14 @@ pub enum Sight {
 /// Why no obstacle moves so.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum ObstacleMotionError {
-    /// No way-point, or more than are served.
-    #[error("{found} way-points, 1 to {MOST_WAYPOINTS} are allowed")]
+    /// No waypoint, or more than are served.
+    #[error("{found} waypoints, 1 to {MOST_WAYPOINTS} are allowed")]
     Waypoints {
         /// How many.
         found: usize,
     },
-    /// A way-point is not after the one before it.
-    #[error("way-point {index} is at {time} s, which is not after the {before} s of the one before")]
+    /// A waypoint is not after the one before it.
+    #[error("waypoint {index} is at {time} s, which is not after the {before} s of the one before")]
     Times {
         /// Which, from 0.
         index: usize,
@@ -96,14 +97,29 @@ pub enum ObstacleMotionError {
         /// Whether it must not be negative.
         positive: bool,
     },
-    /// The course is faster than the greatest speed declared.
-    #[error("the course goes at {found} m/s, the greatest speed declared is {declared} m/s")]
+    /// The course is faster than the maximum speed declared.
+    #[error("{}", self.told(Units::SI))]
     TooFast {
         /// Of the course (m/s).
         found: f64,
         /// What was declared (m/s).
         declared: f64,
     },
+}
+
+impl Told for ObstacleMotionError {
+    fn told(&self, units: Units) -> String {
+        match *self {
+            Self::TooFast { found, declared } => {
+                let unit = units.length.name();
+                let [found, declared] = apart(units.of_metres(found), units.of_metres(declared));
+                format!(
+                    "the obstacle moves at up to {found} {unit}/s, the greatest speed declared is {declared} {unit}/s"
+                )
+            }
+            Self::Waypoints { .. } | Self::Times { .. } | Self::Number { .. } => self.to_string(),
+        }
+    }
 }
 
 impl ObstacleMotion {
@@ -120,8 +136,8 @@ impl ObstacleMotion {
         course.check()?;
         match sight {
             Sight::Always => {}
-            Sight::From(time) => number("time of sight", time, false)?,
-            Sight::Within(radius) => number("radius of sight", radius, true)?,
+            Sight::From(time) => number("seen_from", time, false)?,
+            Sight::Within(radius) => number("sensing radius", radius, true)?,
         }
         let found = course.greatest_speed();
         let declared = greatest_speed.unwrap_or(found);
@@ -132,7 +148,7 @@ impl ObstacleMotion {
         Ok(Self { course, sight, greatest_speed: declared, declared: greatest_speed.is_some() })
     }
 
-    /// With the same greatest speed, but the course known otherwise.
+    /// With the same maximum speed, but the course known otherwise.
     #[must_use]
     pub fn on(&self, course: Course) -> Self {
         Self { course, declared: true, ..self.clone() }
@@ -153,7 +169,7 @@ impl ObstacleMotion {
         self.greatest_speed
     }
 
-    /// The greatest speed if it was declared (m/s); `None` where it is that of the course.
+    /// The maximum speed if it was declared (m/s); `None` where it is that of the course.
     pub fn declared_speed(&self) -> Option<f64> {
         self.declared.then_some(self.greatest_speed)
     }
@@ -206,8 +222,8 @@ impl Course {
                     return Err(ObstacleMotionError::Waypoints { found: waypoints.len() });
                 }
                 for waypoint in waypoints {
-                    number("time of a way-point", waypoint.time, false)?;
-                    vector("shift of a way-point", waypoint.shift)?;
+                    number("time of a waypoint", waypoint.time, false)?;
+                    vector("shift of a waypoint", waypoint.shift)?;
                 }
                 let late = (1..waypoints.len()).find(|&i| waypoints[i].time <= waypoints[i - 1].time);
                 late.map_or(Ok(()), |index| {
@@ -218,7 +234,7 @@ impl Course {
             Self::Drift { start, velocity } => {
                 number("start", *start, false).and(vector("velocity", *velocity))
             }
-            Self::Chase { keep_off } => number("distance to keep off", *keep_off, true),
+            Self::Chase { keep_off } => number("keep_off", *keep_off, true),
             Self::Absent => Ok(()),
             Self::Unknown { seen, shift } => number("time", *seen, false).and(vector("shift", *shift)),
         }

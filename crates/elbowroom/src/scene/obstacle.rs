@@ -13,7 +13,7 @@ pub struct Obstacle {
 }
 
 impl Obstacle {
-    /// One without a name that stands still.
+    /// One without a name that is static.
     pub fn still(shape: Shape) -> Self {
         Self { name: None, shape, motion: None }
     }
@@ -29,10 +29,12 @@ impl Obstacle {
     }
 }
 
-/// What messages call the obstacle of this number, from 0: its name, or its number from 1.
-pub(crate) fn in_words(obstacle: usize, name: Option<&str>) -> String {
+/// What texts call the obstacle at this place among the scene's, from 0: its number, from 1 as links and joints have it, and
+/// its name if it has one.
+pub fn obstacle_in_words(obstacle: usize, name: Option<&str>) -> String {
+    let number = obstacle + 1;
     name.map_or_else(
-        || format!("obstacle {}", obstacle + 1),
-        |name| format!("obstacle '{}'", name.escape_debug()),
+        || format!("obstacle {number}"),
+        |name| format!("obstacle {number} ({})", name.escape_debug()),
     )
 }

@@ -4,7 +4,7 @@ use super::{Obstacle, Scene};
 use crate::arm::TwoLink;
 use crate::grid::Grid;
 
-/// A scene whose arm has two links, among obstacles that stand still, with the closed forms of that arm: what maps, slices
+/// A scene whose arm has two links, among static obstacles, with the closed forms of that arm: what maps, slices
 /// and searches over both postures take. [`Scene::two_link`] makes it.
 #[derive(Debug, Clone, Copy)]
 pub struct TwoLinkScene<'a> {
@@ -22,7 +22,7 @@ pub enum TwoLinkError {
         found: usize,
     },
     /// An obstacle moves.
-    #[error("it takes obstacles to stand still; {} moves", super::obstacle::in_words(*obstacle, name.as_deref()))]
+    #[error("only for static obstacles; {} moves", super::obstacle_in_words(*obstacle, name.as_deref()))]
     Moving {
         /// Its number, from 0.
         obstacle: usize,
@@ -35,7 +35,7 @@ impl Scene {
     /// The scene with the closed forms of its arm, for what needs them.
     ///
     /// # Errors
-    /// [`TwoLinkError`] unless the arm has two links and all obstacles stand still.
+    /// [`TwoLinkError`] unless the arm has two links and all obstacles are static.
     pub fn two_link(&self) -> Result<TwoLinkScene<'_>, TwoLinkError> {
         if let Some(obstacle) = self.first_moving() {
             let name = self.obstacles()[obstacle].name.clone();

@@ -83,7 +83,7 @@ impl<V: Value> Swarm<V> {
         Ok(swarm)
     }
 
-    /// A swarm whose first particles stand still at `positions`, clamped to the box, and the others fly anywhere in it.
+    /// A swarm whose first particles are at rest at `positions`, clamped to the box, and the others fly anywhere in it.
     ///
     /// # Errors
     /// [`SwarmError`] if a setting makes no sense, there are more positions than particles, or one has another number of

@@ -82,7 +82,7 @@ pub enum SwarmError {
         /// What was given.
         value: f64,
     },
-    /// The greatest speed lets nothing move, or is infinite or not a number.
+    /// The maximum speed lets nothing move, or is infinite or not a number.
     #[error("v_max is {value} of the box's width, it must be finite and positive")]
     Speed {
         /// What was given.

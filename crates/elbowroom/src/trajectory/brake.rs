@@ -9,7 +9,7 @@ const LONGEST: f64 = 60.0;
 
 /// The piece from `state` to rest, wherever that is, as short as this search finds under `limits`, one per joint; it
 /// begins at `start` (s) and lasts a whole number of [`TICK`]. `None` where no duration keeps them, as when a joint
-/// at its greatest speed is still being sped up.
+/// at its maximum speed is still being sped up.
 ///
 /// All joints come to rest at once, each on the polynomial of degree four that meets its position, velocity and
 /// acceleration and ends without velocity and acceleration.

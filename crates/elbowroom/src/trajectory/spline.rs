@@ -54,7 +54,7 @@ pub fn durations_by_length(vias: &[Via], duration: f64) -> Vec<f64> {
 ///
 /// The paper leaves open how fast a via is passed. Here it is passed with the velocity and acceleration of
 /// the parabola through it and its neighbours, or at rest where it is a stop. A single via gives a single
-/// piece that stands still for no time.
+/// piece that is at rest for no time.
 pub fn quintic_through(vias: &[Via], durations: &[f64]) -> Vec<Piece> {
     if let [only] = vias {
         let coefficients = only.q.iter().map(|&position| [position, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();

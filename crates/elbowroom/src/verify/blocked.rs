@@ -40,7 +40,7 @@ impl<'a> Blocked<'a> {
         }
     }
 
-    /// Whether at every place of the straight turn from `from` to `to` a link touches an obstacle: proved, not
+    /// Whether at every place of the straight joint motion from `from` to `to` a link touches an obstacle: proved, not
     /// sampled. A link that is `d` deep at a place still touches where none of its points moved by more than `d`.
     pub(super) fn all_along(&self, from: &[f64; 2], to: &[f64; 2]) -> bool {
         let mut witness = None;

@@ -76,7 +76,7 @@ pub enum BoundError {
         side: usize,
     },
     /// The walls leave a way that the search for the shortest did not find.
-    #[error("the shortest way over the mesh was lost in rounding")]
+    #[error("the shortest path over the mesh was lost in rounding")]
     Lost,
     /// `keep_going` said no.
     #[error("stopped before the bound was proved")]
@@ -168,7 +168,7 @@ pub(super) fn places_of(mesh: &NavigationMesh, matters: &[bool], points: &[Point
     places
 }
 
-/// The first wall of the cells that matter that does not stand, looked for on all cores where the pool is compiled in.
+/// The first wall of the cells that matter that does not stand, sought on all cores where the pool is compiled in.
 pub(super) fn first_gap(
     mesh: &NavigationMesh,
     matters: &(dyn Fn(usize) -> bool + Sync),
@@ -197,7 +197,7 @@ pub(super) fn first_gap(
     found.transpose()
 }
 
-/// Whether `place` holds `q`, whole turns of continuous joints aside.
+/// Whether `place` holds `q`, whole revolutions of continuous joints aside.
 fn stands_at(scene: TwoLinkScene<'_>, q: &[f64; 2], place: &MeshPoint, mesh: &NavigationMesh) -> bool {
     let at = [place.point.x, place.point.y];
     let same = (0..2).all(|j| {

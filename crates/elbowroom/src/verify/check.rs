@@ -11,8 +11,8 @@ use crate::trajectory::Motion;
 /// asks for it, by more than the margin, within joint and motion limits, with position, velocity and acceleration that do
 /// not jump.
 ///
-/// Obstacles that move are looked at in space and time, over the whole time of the motion, by their courses; one whose
-/// course is unknown may be anywhere that its greatest speed allows.
+/// Obstacles that move are examined in space and time, over the whole time of the motion, by their courses; one whose
+/// course is unknown may be anywhere that its maximum speed allows.
 ///
 /// Start and end need not be at rest unless the settings ask for it. Joint limits are closed: what rounding alone can put
 /// beyond them is allowed, 1e-12 rad and some last places of the polynomial's terms; motion limits a share of 1e-12.

@@ -13,7 +13,7 @@ const KINDS: [Quantity; 3] = [Quantity::Position, Quantity::Velocity, Quantity::
 /// Reports the greatest jump of each kind per joint, and gives the greatest jump of position that passed as
 /// rounding, per joint (rad).
 ///
-/// Up to `continuous` nothing may jump. Beyond it a jump is held against a joint whose next rate is limited: to jump
+/// Up to `continuous` nothing may jump. Beyond it a jump is compared with a joint whose next rate is limited: to jump
 /// in velocity takes more acceleration than any limit allows.
 pub(super) fn check(
     pieces: &[Piece],

@@ -56,8 +56,8 @@ impl<'a> Way<'a> {
         }
     }
 
-    /// How far from `place`, a shift, its course is at any time between two (s) (m). Straight between way-points, it is
-    /// farthest at an end or at a way-point.
+    /// How far from `place`, a shift, its course is at any time between two (s) (m). Straight between waypoints, it is
+    /// farthest at an end or at a waypoint.
     pub(super) fn drift(&self, [from, to]: [f64; 2], place: [f64; 2]) -> f64 {
         let off = |shift: [f64; 2]| length([shift[0] - place[0], shift[1] - place[1]]);
         let ends = off(self.shift(from)).max(off(self.shift(to)));

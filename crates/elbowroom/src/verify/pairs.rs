@@ -46,7 +46,7 @@ impl Stretch {
 }
 
 /// Every link with every obstacle and, where `links` are given, with every link before it that is no neighbour: that
-/// one stands still where it is looked from, and the links between them are the carriers.
+/// one is at rest in the frame it is seen from, and the links between them are the carriers.
 pub(super) fn pairs<'a>(
     arm: &'a Arm,
     obstacles: &'a [Body<'a>],

@@ -59,7 +59,7 @@ impl Peak {
         }
     }
 
-    /// The ends of the interval from `from`, `width` long, have been looked at.
+    /// The ends of the interval from `from`, `width` long, have been examined.
     fn search<const N: usize>(
         &mut self,
         polynomial: &Bernstein<N>,

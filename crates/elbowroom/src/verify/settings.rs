@@ -8,7 +8,7 @@ pub const FLOOR: f64 = 1e-9;
 pub struct VerifySettings {
     /// Clearance that a safe motion has more of (m); below [`FLOOR`] it counts as [`FLOOR`].
     pub margin: f64,
-    /// Configurations looked at per piece and pair of a link and what it must not touch before the pair is left undecided;
+    /// Configurations examined per piece and pair of a link and what it must not touch before the pair is left undecided;
     /// half of them may go into the accuracy of the least clearance.
     pub evaluations: u32,
     /// What must not jump where pieces meet, all before it included. Jumps beyond it count only against joints with
@@ -23,7 +23,7 @@ pub struct VerifySettings {
 pub enum End {
     /// Nothing: the arm may be moving there.
     Open,
-    /// That the arm stands still beyond it. Up to this quantity nothing may jump from there to rest; a jump beyond it counts
+    /// That the arm is at rest beyond it. Up to this quantity nothing may jump from there to rest; a jump beyond it counts
     /// only against joints with a limit on the next rate.
     AtRest(Quantity),
 }

@@ -23,13 +23,13 @@ const ACCURACY_SHARE: f64 = 0.01;
 /// Looks between two questions whether to keep going.
 const LOOKS_BETWEEN: u32 = 64;
 
-/// Configurations per piece looked at beforehand, for a first idea of the least clearance.
+/// Configurations per piece examined beforehand, for a first idea of the least clearance.
 const GLANCES: u32 = 4;
 
 /// The most pieces that are glanced at.
 const GLANCED_AT: usize = 64;
 
-/// Configurations looked at for the depth of a contact, shared by the pieces; the least for one piece.
+/// Configurations examined for the depth of a contact, shared by the pieces; the least for one piece.
 const SOUNDINGS: usize = 512;
 const LEAST_SOUNDINGS: usize = 4;
 

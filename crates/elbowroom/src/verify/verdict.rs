@@ -1,6 +1,10 @@
-use std::fmt;
-
 use thiserror::Error;
+
+use crate::scene::{Scene, obstacle_in_words};
+use crate::units::{Units, apart, seconds};
+
+/// What is penetrated by less (m) is touched: the floor of contact, rounding aside.
+const TOUCH: f64 = 1e-8;
 
 /// What the verifier found: it alone makes one.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,7 +15,7 @@ pub struct Verdict {
     pub violations: Vec<Violation>,
     /// The nearest that a link comes to what it must not touch; `None` where there is nothing of the kind.
     pub least_clearance: Option<Clearance>,
-    /// How near each joint comes to its stops, base first; `None` for a joint without stops.
+    /// How near each joint comes to its limits, base first; `None` for a continuous joint.
     pub joint_margins: Vec<Option<JointMargin>>,
     /// The fastest of each joint, base first.
     pub motion_margins: Vec<MotionMargins>,
@@ -36,11 +40,15 @@ pub enum Against {
     Link(usize),
 }
 
-impl fmt::Display for Against {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Against {
+    /// What texts call it: obstacles by their number from 1 and their name in `scene`, if it is known.
+    pub fn in_words(self, scene: Option<&Scene>) -> String {
         match self {
-            Self::Obstacle(index) => write!(f, "obstacle {index}"),
-            Self::Link(link) => write!(f, "link {link}"),
+            Self::Obstacle(index) => {
+                let obstacle = scene.and_then(|scene| scene.obstacles().get(index));
+                obstacle_in_words(index, obstacle.and_then(|obstacle| obstacle.name.as_deref()))
+            }
+            Self::Link(link) => format!("link {link}"),
         }
     }
 }
@@ -61,10 +69,10 @@ pub struct Clearance {
     pub against: Against,
 }
 
-/// How near a joint comes to its stops.
+/// How near a joint comes to its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointMargin {
-    /// To the nearer stop (rad); below 0 beyond it.
+    /// To the nearer limit (rad); below 0 beyond it.
     pub distance: f64,
     /// When (s).
     pub time: f64,
@@ -136,12 +144,12 @@ impl Rate {
         }
     }
 
-    /// Its unit.
-    pub const fn unit(self) -> &'static str {
+    /// Which derivative of the position it is.
+    pub const fn order(self) -> usize {
         match self {
-            Self::Velocity => "rad/s",
-            Self::Acceleration => "rad/s²",
-            Self::Jerk => "rad/s³",
+            Self::Velocity => 1,
+            Self::Acceleration => 2,
+            Self::Jerk => 3,
         }
     }
 }
@@ -156,22 +164,22 @@ impl Quantity {
         }
     }
 
-    /// Its unit.
-    pub const fn unit(self) -> &'static str {
+    /// Which derivative of the position it is.
+    pub const fn order(self) -> usize {
         match self {
-            Self::Position => "rad",
-            Self::Velocity => "rad/s",
-            Self::Acceleration => "rad/s²",
+            Self::Position => 0,
+            Self::Velocity => 1,
+            Self::Acceleration => 2,
         }
     }
 }
 
-/// A reason why a motion is not safe. Joints and links count from 1 at the base, obstacles from 0 as in the
-/// scene, times are in seconds.
+/// A reason why a motion is not safe. Joints and links count from 1 at the base, obstacles from 0 (in texts
+/// from 1), times are in seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Violation {
     /// A link comes as near to what it must not touch as the margin, or touches it.
-    #[error("link {link} touches {against} from {time} s on, {depth} m short of the clearance asked for")]
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     Contact {
         /// When first.
         time: f64,
@@ -185,7 +193,7 @@ pub enum Violation {
     },
     /// It was not decided whether a link stays clear of something: the budget ran out, or the clearance
     /// cannot be told from the floor in the arithmetic used.
-    #[error("whether link {link} stays clear of {against} could not be decided from {time} s on")]
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     Undecided {
         /// When first.
         time: f64,
@@ -194,8 +202,8 @@ pub enum Violation {
         /// What it touches.
         against: Against,
     },
-    /// A joint turns beyond a stop.
-    #[error("joint {joint} turns to {angle} rad at {time} s, beyond its stop at {limit} rad")]
+    /// A joint moves beyond a limit.
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     JointLimit {
         /// Which joint.
         joint: usize,
@@ -203,11 +211,11 @@ pub enum Violation {
         time: f64,
         /// Where it then stands (rad).
         angle: f64,
-        /// The stop (rad).
+        /// The limit (rad).
         limit: f64,
     },
     /// A joint moves faster, or changes its speed faster, than allowed.
-    #[error("the {} of joint {joint} reaches {value} {} at {time} s, {limit} {} are allowed", rate.name(), rate.unit(), rate.unit())]
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     MotionLimit {
         /// Which joint.
         joint: usize,
@@ -221,7 +229,7 @@ pub enum Violation {
         limit: f64,
     },
     /// Two pieces do not join.
-    #[error("the {} of joint {joint} jumps by {jump} {} at {time} s", what.name(), what.unit())]
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     Discontinuity {
         /// Which joint.
         joint: usize,
@@ -233,12 +241,7 @@ pub enum Violation {
         jump: f64,
     },
     /// A joint is not at rest where the motion begins or ends, and was to be.
-    #[error(
-        "joint {joint} {} at {time} s: its {} is {value} {} there",
-        if *at_end { "does not come to rest where the motion ends," } else { "is not at rest where the motion begins," },
-        what.name(),
-        what.unit()
-    )]
+    #[error("{}", self.told_of(None, Units::SI, 0.0))]
     NotAtRest {
         /// Which joint.
         joint: usize,
@@ -252,7 +255,7 @@ pub enum Violation {
         time: f64,
     },
     /// The motion begins later than it was said to: what the arm does until then is not in it.
-    #[error("how the arm gets to the first row in the {lead} s before it was not judged")]
+    #[error("how the arm gets to the first row in the {} before it was not judged", seconds(*lead))]
     NotJudged {
         /// How long before (s).
         lead: f64,
@@ -270,7 +273,7 @@ pub enum Violation {
         time: f64,
     },
     /// The numbers of a piece are too large for the arithmetic.
-    #[error("the numbers of joint {joint} are too large in the piece that begins at {time} s")]
+    #[error("the numbers of joint {joint} are too large in the piece that begins at {}", seconds(*time))]
     TooLarge {
         /// Which joint.
         joint: usize,
@@ -280,12 +283,70 @@ pub enum Violation {
     /// The verifier was told to stop before it was done.
     #[error("the verifier was stopped before it was done with the motion")]
     Stopped {
-        /// When the first piece begins that was not looked at in full.
+        /// When the first piece begins that was not examined in full.
         time: f64,
     },
 }
 
 impl Violation {
+    /// In words and in `units`: of a motion in `scene`, if it is known, that was to keep a clearance of `margin` (m).
+    pub fn told_of(&self, scene: Option<&Scene>, units: Units, margin: f64) -> String {
+        match *self {
+            Self::Contact { time, link, against, depth } => {
+                let other = against.in_words(scene);
+                let from = seconds(time);
+                let inside = depth - margin;
+                if inside > TOUCH {
+                    format!(
+                        "link {link} touches {other} from {from} on and penetrates it by {}",
+                        units.length(inside)
+                    )
+                } else if margin > 0.0 && inside < 0.0 {
+                    let [nearest, asked] = apart(units.of_metres(-inside), units.of_metres(margin));
+                    let unit = units.length.name();
+                    format!(
+                        "link {link} comes within {nearest} {unit} of {other}; a clearance of {asked} {unit} is asked for, and missed \
+                         from {from} on"
+                    )
+                } else {
+                    format!("link {link} touches {other} from {from} on")
+                }
+            }
+            Self::Undecided { time, link, against } => {
+                let other = against.in_words(scene);
+                format!(
+                    "whether link {link} stays clear of {other} could not be decided from {} on",
+                    seconds(time)
+                )
+            }
+            Self::JointLimit { joint, time, angle, limit } => {
+                let [angle, limit] = units.beside_limit(angle, limit, 0);
+                format!("joint {joint} moves to {angle} at {}, beyond its limit of {limit}", seconds(time))
+            }
+            Self::MotionLimit { joint, rate, time, value, limit } => {
+                let [value, limit] = units.beside_limit(value, limit, rate.order());
+                let at = seconds(time);
+                format!("the {} of joint {joint} reaches {value} at {at}, {limit} are allowed", rate.name())
+            }
+            Self::Discontinuity { joint, what, time, jump } => {
+                let jump = units.rate(jump, what.order());
+                format!("the {} of joint {joint} jumps by {jump} at {}", what.name(), seconds(time))
+            }
+            Self::NotAtRest { joint, at_end, what, value, time } => {
+                let value = units.rate(value, what.order());
+                let moves = if at_end {
+                    "does not come to rest where the motion ends"
+                } else {
+                    "is not at rest where the motion begins"
+                };
+                format!("joint {joint} {moves}, at {}: its {} is {value} there", seconds(time), what.name())
+            }
+            Self::NotJudged { .. } | Self::OtherArm { .. } | Self::TooLarge { .. } | Self::Stopped { .. } => {
+                self.to_string()
+            }
+        }
+    }
+
     /// When (s).
     pub fn time(&self) -> f64 {
         match *self {

@@ -72,7 +72,11 @@ fn a_place_that_is_not_free_says_why_and_where_the_arm_could_stand() {
         assert!(!free(p) || p.distance(Point::new(0.3, 0.4)) >= nearest.distance(Point::new(0.3, 0.4)));
     }
     let text = refused.to_string();
-    assert!(text.contains("obstacle 1 (post)") && text.contains("nearest free grid point"), "{text}");
+    assert!(
+        text.contains("link 2 would penetrate obstacle 2 (post) by 0.0600 m")
+            && text.contains("nearest free grid point"),
+        "{text}"
+    );
 
     let far = configurations(two, &Place::Tip(Point::new(2.0, 0.0))).unwrap_err();
     assert!(matches!(far.reasons[0].1, Reason::OutOfReach { distance: 2.0, .. }));

@@ -96,14 +96,22 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
             "elbowroom: 2",
             "s.yaml:1:12: elbowroom: found 2; this elbowroom reads version 1 of the format",
         ),
-        ("elbowroom: 1\n", "", "s.yaml:1:1: missing: elbowroom"),
+        (
+            "elbowroom: 1\n",
+            "",
+            "s.yaml:1:1: missing: elbowroom; add the version of the format as the first line, elbowroom: 1",
+        ),
         (
             "{length: cm, angle: deg}",
             "{length: inch, angle: deg}",
             "s.yaml:2:17: units.length: found inch; allowed: m, cm, mm",
         ),
         ("{length: cm, angle: deg}", "{length: cm}", "s.yaml:2:8: units: missing: angle"),
-        ("units: {length: cm, angle: deg}\n", "", "s.yaml:1:1: missing: units"),
+        (
+            "units: {length: cm, angle: deg}\n",
+            "",
+            "s.yaml:1:1: missing: units; add what the numbers mean, such as units: {length: mm, angle: deg}",
+        ),
         (
             "links:",
             "lniks:",
@@ -116,8 +124,12 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ("[25, 20]", "[25, .nan]", "s.yaml:4:15: arm.links[1]: found .nan; numbers must be finite"),
         ("[25, 20]", "[25, -.Inf]", "s.yaml:4:15: arm.links[1]: found -.Inf; numbers must be finite"),
         ("[25, 20]", "[25, 1e999]", "s.yaml:4:15: arm.links[1]: found 1e999; numbers must be finite"),
-        ("[25, 20]", "[25, 1e12]", "s.yaml:4:15: arm.links[1]: found 1e12; allowed: at most 1e6 m in size"),
-        ("[25, 20]", "[25, 1e-5]", "s.yaml:4:15: arm.links[1]: found 1e-5; allowed: at least 1e-6 m"),
+        (
+            "[25, 20]",
+            "[25, 1e12]",
+            "s.yaml:4:15: arm.links[1]: found 1e12; allowed: at most 100000000 cm in size",
+        ),
+        ("[25, 20]", "[25, 1e-5]", "s.yaml:4:15: arm.links[1]: found 1e-5; allowed: at least 0.0001 cm"),
         ("[25, 20]", "[25, \"20\"]", "s.yaml:4:15: arm.links[1]: found the text \"20\"; allowed: a number"),
         ("[25, 20]", "[25, 0x14]", "s.yaml:4:15: arm.links[1]: found 0x14; allowed: a number"),
         ("[25, 20]", "[25, infinity]", "s.yaml:4:15: arm.links[1]: found infinity; allowed: a number"),
@@ -142,7 +154,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{continuous: false}",
-            "s.yaml:7:20: arm.joints[1].continuous: found false; allowed: true; a joint with stops has min and max instead",
+            "s.yaml:7:20: arm.joints[1].continuous: found false; allowed: true; a joint with limits has min and max instead",
         ),
         (
             "{min: -150, max: 150}",
@@ -152,12 +164,12 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -1e9, max: 150}",
-            "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand turns of 0",
+            "s.yaml:7:13: arm.joints[1].min: found -1e9; allowed: within a thousand revolutions of 0",
         ),
         (
             "{min: -150, max: 150}",
             "{min: -8000, max: 150}",
-            "s.yaml:7:7: arm.joints[1]: -8000 to 150 deg is 22.6 turns, more than 20: is `units.angle` right? A joint without stops is `continuous: true`",
+            "s.yaml:7:7: arm.joints[1]: -8000 to 150 deg is 22.6 turns, more than 20: is `units.angle` right? A joint without limits is `continuous: true`",
         ),
         (
             "velocity: 90",
@@ -166,7 +178,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ),
         ("half_width: 2", "half_width: -2", "s.yaml:8:15: arm.half_width: found -2; allowed: 0 or more"),
         ("base: [1, -2]", "base: [1]", "s.yaml:9:9: arm.base: found a list of 1; allowed: [x, y]"),
-        ("step: 1", "step: 0", "s.yaml:10:42: grid.step: step is 0 m, it must be finite and greater than 0"),
+        ("step: 1", "step: 0", "s.yaml:10:42: grid.step: step is 0 cm, it must be finite and greater than 0"),
         (
             "step: 1",
             "step: 1e-9",
@@ -175,7 +187,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "x: [-50, 50]",
             "x: [50, -50]",
-            "s.yaml:10:11: grid.x: range x is 0.5 m to -0.5 m, it must be finite and must not end before it begins",
+            "s.yaml:10:11: grid.x: range x is 50 cm to -50 cm, it must be finite and must not end before it begins",
         ),
         (
             "radius: 5",
@@ -195,7 +207,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "circle: {center: [22, 22], radius: 5}",
             "segment: {from: [1, 2], to: [1, 2], radius: 5}",
-            "s.yaml:12:14: obstacles[0].segment: both ends are at (0.01 m, 0.02 m); what has one place and a radius is a circle",
+            "s.yaml:12:14: obstacles[0].segment: both ends are at (1 cm, 2 cm); what has one place and a radius is a circle",
         ),
         (
             "circle: {center: [22, 22], radius: 5}",
@@ -273,7 +285,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
             "s.yaml:1:12: elbowroom: found 2; this elbowroom reads version 1 of the format",
         ),
         ("[25, 20]", "[25, 1_0]", "s.yaml:4:15: arm.links[1]: found 1_0; allowed: a number"),
-        ("[25, 20]", "[25, 1e-300]", "s.yaml:4:15: arm.links[1]: found 1e-300; allowed: at least 1e-6 m"),
+        ("[25, 20]", "[25, 1e-300]", "s.yaml:4:15: arm.links[1]: found 1e-300; allowed: at least 0.0001 cm"),
         ("[25, 20]", "[25, *b]", "s.yaml:4:15: anchors, aliases and tags are not read; write the value out"),
         (
             "[25, 20]",
@@ -283,18 +295,18 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -150, max: 1e9}",
-            "s.yaml:7:24: arm.joints[1].max: found 1e9; allowed: within a thousand turns of 0",
+            "s.yaml:7:24: arm.joints[1].max: found 1e9; allowed: within a thousand revolutions of 0",
         ),
         (
             "base: [1, -2]",
             "base: [1, 1e9]",
-            "s.yaml:9:13: arm.base[1]: found 1e9; allowed: at most 1e6 m in size",
+            "s.yaml:9:13: arm.base[1]: found 1e9; allowed: at most 100000000 cm in size",
         ),
         ("y: [-40, 40]", "y: [-40, 40, 1]", "s.yaml:10:25: grid.y: found a list of 3; allowed: [min, max]"),
         (
             "y: [-40, 40]",
             "y: [40, -40]",
-            "s.yaml:10:25: grid.y: range y is 0.4 m to -0.4 m, it must be finite and must not end before it begins",
+            "s.yaml:10:25: grid.y: range y is 40 cm to -40 cm, it must be finite and must not end before it begins",
         ),
         (
             "step: 1",
@@ -334,14 +346,14 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{q: [90, -30]}",
             "{q: [90, 1e300]}",
-            "s.yaml:16:43: tasks.first.goal.q[1]: found 1e300; allowed: at most 1e4 rad in size",
+            "s.yaml:16:43: tasks.first.goal.q[1]: found 1e300; allowed: at most 572958 deg in size",
         ),
         (
             "{q: [90, -30]}",
             "{q: 90}",
             "s.yaml:16:38: tasks.first.goal.q: found 90; allowed: [q1, q2], a joint angle each",
         ),
-        ("[25, 20]", "[25, 20", "s.yaml:5:9: not YAML: illegal placement of ':' indicator"),
+        ("[25, 20]", "[25, 20", "s.yaml:5:9: not YAML: a '[' or '{' in the lines before is not closed"),
     ] {
         assert!(SOUND.contains(old), "{old}");
         let found = message(&SOUND.replacen(old, new, 1));

@@ -52,12 +52,12 @@ fn obstacles_that_move_are_read_with_their_units() {
             "motion: {velocity: [1, 0], chases: tip}",
             "motion: found a mapping; allowed: one of waypoints, velocity (with or without start), chases (with or without keep_off)",
         ),
-        ("motion: {waypoints: []}", "motion: 0 way-points, 1 to 10000 are allowed"),
+        ("motion: {waypoints: []}", "motion: 0 waypoints, 1 to 10000 are allowed"),
         ("motion: {chases: tip}", "motion: missing: greatest_speed, beside chases"),
         ("motion: {chases: base}, greatest_speed: 1", "motion.chases: found base; allowed: tip"),
         (
             "motion: {velocity: [3, 4]}, greatest_speed: 4",
-            "greatest_speed: the course goes at 0.05 m/s, the greatest speed declared is 0.04 m/s",
+            "greatest_speed: the obstacle moves at up to 5 cm/s, the greatest speed declared is 4 cm/s",
         ),
         ("seen: false", "seen: found false; allowed: only beside motion"),
         (
@@ -71,7 +71,7 @@ fn obstacles_that_move_are_read_with_their_units() {
         ),
         (
             "motion: {waypoints: [{time: 1, shift: [0, 0]}, {time: 1, shift: [1, 0]}]}",
-            "motion: way-point 1 is at 1 s, which is not after the 1 s of the one before",
+            "motion: waypoint 1 is at 1 s, which is not after the 1 s of the one before",
         ),
     ] {
         let found = after_place(&message(&with(extra)));

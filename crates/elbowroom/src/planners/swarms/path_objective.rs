@@ -6,11 +6,11 @@ use crate::planning::{Objective, motion_limits};
 use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
 
-/// Distance between two looks at a turn, as a share of the reach, and the most looks at one.
+/// Distance between two samples at a turn, as a share of the reach, and the most looks at one.
 const LOOK_EVERY: f64 = 0.015;
 const MOST_LOOKS: usize = 64;
 
-/// Clearance that candidates are led to keep, as a share of the reach: what is looked at only here and there shall be
+/// Clearance that candidates are led to keep, as a share of the reach: what is examined only here and there shall be
 /// certified.
 const KEPT: f64 = 2e-3;
 
@@ -37,7 +37,7 @@ impl<'a> PathObjective<'a> {
         &self.limits
     }
 
-    /// What straight turns from place to place cost.
+    /// What straight joint motions from place to place cost.
     pub(in crate::planners) fn cost(&self, places: &[Configuration]) -> f64 {
         let cost = |pair: &[Configuration]| {
             let (from, to) = (&*pair[0], &*pair[1]);
@@ -46,8 +46,8 @@ impl<'a> PathObjective<'a> {
         places.windows(2).map(cost).sum()
     }
 
-    /// How deep in contact the arm is along straight turns, and how far beyond its stops: summed over the way of its
-    /// points (m²); 0 where it keeps some clearance wherever it is looked at.
+    /// How deep in contact the arm is along straight joint motions, and how far beyond its limits: summed over the way of its
+    /// points (m²); 0 where it keeps some clearance wherever it is examined.
     pub(in crate::planners) fn violation(&self, places: &[Configuration]) -> f64 {
         let mut watch = self.watch(&places[0]);
         places.windows(2).map(|pair| self.turn(&pair[0], &pair[1], &mut watch)).sum()
@@ -76,7 +76,7 @@ impl<'a> PathObjective<'a> {
         ((self.way(from, to) / self.look_every).ceil() as usize).clamp(1, MOST_LOOKS)
     }
 
-    /// How far `q` is beyond the stops and, where the posture at `start` is to be kept, beyond the full stretch (m).
+    /// How far `q` is beyond the limits and, where the posture at `start` is to be kept, beyond the full stretch (m).
     fn beyond(&self, q: &[f64], start: &[f64]) -> f64 {
         let beyond: f64 = self
             .scene

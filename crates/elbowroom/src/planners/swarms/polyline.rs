@@ -1,4 +1,4 @@
-//! Particles that stand for configurations joined by straight turns.
+//! Particles that stand for configurations joined by straight joint motions.
 
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
@@ -79,7 +79,7 @@ fn certified(scene: &Scene, places: Vec<Configuration>) -> Option<Vec<Configurat
     places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1])).then_some(places)
 }
 
-/// Coordinates of `count` particles with `vias` configurations each, on the straight turns from starts to goals and, one
+/// Coordinates of `count` particles with `vias` configurations each, on the straight joint motions from starts to goals and, one
 /// after the other, ever farther from them.
 pub(in crate::planners) fn around_straight(
     choice: &EndpointChoice,

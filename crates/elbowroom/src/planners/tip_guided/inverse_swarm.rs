@@ -20,7 +20,7 @@ const PULL: f64 = 1.49618;
 /// Iterations that room is taken for beforehand.
 const MOST_RESERVED: usize = 1_000;
 
-/// How far from 0 continuous joints are drawn (rad): more than half a turn, so that no direction lies at an edge only.
+/// How far from 0 continuous joints are drawn (rad): more than half a revolution, so that no direction lies at an edge only.
 const WIDEST_DRAW: f64 = 1.5 * std::f64::consts::PI;
 
 /// How [`inverse_by_swarm`] looks.
@@ -93,7 +93,7 @@ pub enum InverseSwarmError {
 /// The configuration that a swarm over the joint angles finds to put the tip at `tip`.
 ///
 /// Fitness is the square of the tip's position error, to which `previous` adds its weight times the squared distance
-/// from it, continuous joints the short way round. `violation` is 0 or less where a configuration may be taken; what may be
+/// from it, continuous joints along the shorter direction. `violation` is 0 or less where a configuration may be taken; what may be
 /// taken beats what may not, which goes by its violation (Deb's rule). The swarm has one inertia and one best for all, and
 /// ends when its best may be taken and errs by less than the tolerance, or with the iterations; one that has come to rest
 /// short of that is drawn
@@ -241,7 +241,7 @@ fn is_gain(fitness: Fitness, known: Fitness, share: f64) -> bool {
     }
 }
 
-/// Where each joint may be looked for: between the stops, and around `previous`; a continuous one without that up to `widest`
+/// Where each joint may be sought: within the limits, and around `previous`; a continuous one without that up to `widest`
 /// from 0 (rad).
 fn ranges(arm: &Arm, previous: Option<Previous<'_>>, widest: f64) -> Vec<[f64; 2]> {
     let range = |(j, joint): (usize, &Joint)| {

@@ -48,7 +48,7 @@ impl<'a> LocalPlanner<'a> {
         self.scene.arm().tip(q)
     }
 
-    /// Whether the straight turn is certified, between the stops, and keeps the posture that has to be kept.
+    /// Whether the straight joint motion is certified, within the limits, and keeps the posture that has to be kept.
     pub(in crate::planners) fn connects(&mut self, from: &[f64], to: &[f64]) -> Result<bool, Exhausted> {
         self.budget.spend(1)?;
         let keeps = self.kept.is_none_or(|kept| Posture::at(to).is_none_or(|posture| posture == kept))
@@ -97,8 +97,8 @@ impl<'a> LocalPlanner<'a> {
         self.by_least_squares(from, &found.q, tip)
     }
 
-    /// `q` with every joint moved by up to `most` (rad), evenly drawn, and put between its stops.
-    pub(in crate::planners) fn shaken(&mut self, q: &[f64], most: f64) -> Configuration {
+    /// `q` with every joint moved by up to `most` (rad), evenly drawn, and put within its limits.
+    pub(in crate::planners) fn perturbed(&mut self, q: &[f64], most: f64) -> Configuration {
         let moved = q.iter().map(|angle| angle + most * (2.0 * unit(&mut self.rng) - 1.0)).collect();
         self.scene.arm().clamped(moved)
     }

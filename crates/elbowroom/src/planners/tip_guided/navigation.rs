@@ -9,7 +9,7 @@ use crate::planning::{Monitor, PlanError, Problem};
 use crate::scene::Scene;
 use crate::search::{Dstar, Graph, Until};
 
-/// Cells between two looks at the monitor while the map is made.
+/// Cells between two samples at the monitor while the map is made.
 const CELLS_PER_LOOK: usize = 4_096;
 
 /// Within how many half widths of an obstacle, and no less than grid steps, a cell is the costlier the nearer it lies.
@@ -201,7 +201,7 @@ fn reach(arm: &Arm) -> [f64; 2] {
     let at = |bend: f64| {
         (first * first + second * second + 2.0 * first * second * libm::cos(bend)).max(0.0).sqrt()
     };
-    // The distance falls from stretch to fold: its ends are at the stops, unless those lie between them.
+    // The distance falls from stretch to fold: its ends are at the limits, unless those lie between them.
     let folds = max - min >= TAU || ((min - PI) / TAU).ceil() * TAU + PI <= max;
     let stretches = max - min >= TAU || (min / TAU).ceil() * TAU <= max;
     let (a, b) = (at(min), at(max));

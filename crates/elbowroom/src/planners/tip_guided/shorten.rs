@@ -1,4 +1,4 @@
-//! A certified path made cheaper: straight turns in place of detours.
+//! A certified path made cheaper: straight joint motions in place of detours.
 
 use super::local_planner::LocalPlanner;
 use crate::arm::{Arm, Configuration, joint_distance};
@@ -28,7 +28,7 @@ pub(in crate::planners) fn estimated_cost(
     objective.estimate(&motion_limits(arm).0, || path.tip_travel(arm), || path.length(), corners)
 }
 
-/// `path` with straight turns, certified, in place of stretches that weigh more; it ends early where the budget does.
+/// `path` with straight joint motions, certified, in place of stretches that weigh more; it ends early where the budget does.
 ///
 /// # Errors
 /// [`Exhausted::Failed`]

@@ -21,7 +21,7 @@ const RADIUS: f64 = 0.5;
 /// Configurations of one cell nearer to each other than this are one (rad).
 const DIFFERENT: f64 = 0.1;
 
-/// How far joints are shaken for self-motion (rad).
+/// How far joints are perturbed for self-motion (rad).
 const SHAKE: f64 = 0.5;
 
 /// Greatest turn of a joint in one step between configurations (rad).
@@ -77,7 +77,7 @@ impl<'a> Trees<'a> {
         Self { ends, tips, guides: [to_goals, to_starts] }
     }
 
-    /// A path from a start to a goal, whose straight turns are certified.
+    /// A path from a start to a goal, whose straight joint motions are certified.
     ///
     /// # Errors
     /// [`Exhausted`]
@@ -126,7 +126,7 @@ impl<'a> Trees<'a> {
     }
 }
 
-/// `to_meeting`, and from there back along `from_goal`, counted on by the whole turns between both.
+/// `to_meeting`, and from there back along `from_goal`, counted on by the whole revolutions between both.
 fn joined(mut to_meeting: Vec<Configuration>, mut from_goal: Vec<Configuration>) -> Vec<Configuration> {
     if let (Some(here), Some(there)) = (to_meeting.last(), from_goal.last()) {
         let whole = |(a, b): (&f64, &f64)| ((a - b) / std::f64::consts::TAU).round() * std::f64::consts::TAU;
@@ -180,7 +180,7 @@ impl Tree {
         let reach = local.scene.arm().reach()[1];
         let mut steps = ((STRIDE * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
         // After the first try, from elsewhere on the self-motion.
-        let near = if tried == 1 { from.clone() } else { local.shaken(&from, SHAKE) };
+        let near = if tried == 1 { from.clone() } else { local.perturbed(&from, SHAKE) };
         let mut found = None;
         loop {
             let tip = self.guide.point(self.guide.ahead(cell, steps));
@@ -210,21 +210,21 @@ impl Tree {
         if local.unit() < 0.5 {
             let node = local.below(self.nodes.len());
             let from = self.nodes[node].q.clone();
-            let (near, tip) = (local.shaken(&from, SHAKE), local.tip(&from));
+            let (near, tip) = (local.perturbed(&from, SHAKE), local.tip(&from));
             return match local.by_least_squares(&from, &near, tip)? {
                 Some(q) => self.insert(local, q, Some(node)),
                 None => Ok(None),
             };
         }
         let middle = vec![0.0; local.scene.arm().links()];
-        let anywhere = local.shaken(&middle, std::f64::consts::PI);
+        let anywhere = local.perturbed(&middle, std::f64::consts::PI);
         let Some((node, target)) = self.nearest(local.scene.arm(), &anywhere) else { return Ok(None) };
         let to = step(&self.nodes[node].q, &target);
         let from = self.nodes[node].q.clone();
         if local.connects(&from, &to)? { self.insert(local, to, Some(node)) } else { Ok(None) }
     }
 
-    /// The configuration nearest to `q`, and `q` counted on by whole turns to where it is nearest to that.
+    /// The configuration nearest to `q`, and `q` counted on by whole revolutions to where it is nearest to that.
     fn nearest(&self, arm: &Arm, q: &[f64]) -> Option<(usize, Configuration)> {
         let by_distance = |a: &usize, b: &usize| {
             arm.distance(&self.nodes[*a].q, q).total_cmp(&arm.distance(&self.nodes[*b].q, q))

@@ -2,10 +2,10 @@ use std::f64::consts::TAU;
 
 use super::error::ParseProblem;
 use super::keys::Keys;
-use super::units::Units;
 use super::value::{Fault, Map, Value};
-use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, MOST_LINKS, MotionLimits};
+use crate::arm::{Arm, ArmError, Joint, JointLimits, JointLimitsError, LENGTHS, MOST_LINKS, MotionLimits};
 use crate::geometry::Point;
+use crate::units::Units;
 
 pub(super) const ARM: Keys =
     Keys { required: &["links", "joints"], optional: &["half_width", "base", "self_collision"] };
@@ -48,7 +48,9 @@ pub(super) fn read(value: &Value<'_>, units: Units) -> Result<Arm, Fault> {
         None => false,
     };
     Arm::new(base, lengths, half_width, joints, self_collision).map_err(|error| match error {
-        ArmError::Length { link, .. } => links[link - 1].out_of_range("at least 1e-6 m"),
+        ArmError::Length { link, .. } => {
+            links[link - 1].out_of_range(format!("at least {}", units.stated_length(*LENGTHS.start())))
+        }
         ArmError::AlwaysTouching { link, .. } => links[link - 1].fault(error.into()),
         _ => value.fault(error.into()),
     })
@@ -60,14 +62,14 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
         (Some(continuous), None, None) => {
             continuous
                 .word(&["true"])
-                .map_err(|_| continuous.shape("true; a joint with stops has min and max instead"))?;
+                .map_err(|_| continuous.shape("true; a joint with limits has min and max instead"))?;
             JointLimits::Continuous
         }
         (Some(_), ..) => {
             let (found, allowed) = ("continuous beside min or max".to_owned(), "one or the other".to_owned());
             return Err(value.fault(ParseProblem::Shape { found, allowed }));
         }
-        (None, Some(min), Some(max)) => stops(value, &min, &max, units)?,
+        (None, Some(min), Some(max)) => range(value, &min, &max, units)?,
         (None, Some(_), None) => return Err(value.fault(ParseProblem::MissingKey { key: "max" })),
         (None, None, Some(_)) => return Err(value.fault(ParseProblem::MissingKey { key: "min" })),
         (None, None, None) => {
@@ -82,27 +84,27 @@ fn joint(value: &Value<'_>, units: Units) -> Result<Joint, Fault> {
     Ok(Joint { limits, motion })
 }
 
-fn stops(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
+fn range(joint: &Value<'_>, min: &Value<'_>, max: &Value<'_>, units: Units) -> Result<JointLimits, Fault> {
     let (low, high) = (min.number()?, max.number()?);
-    let (min_angle, max_angle) = (units.angle(low), units.angle(high));
+    let (min_angle, max_angle) = (units.radians(low), units.radians(high));
     JointLimits::range(min_angle, max_angle).map_err(|error| match error {
         JointLimitsError::Reversed { .. } => {
             joint.fault(ParseProblem::LimitsReversed { min: low, max: high })
         }
         JointLimitsError::TooWide { .. } => {
             let turns = (max_angle - min_angle) / TAU;
-            joint.fault(ParseProblem::LimitsTooWide { min: low, max: high, unit: units.angle_name(), turns })
+            joint.fault(ParseProblem::LimitsTooWide { min: low, max: high, unit: units.angle.name(), turns })
         }
         JointLimitsError::OutsideRange { .. } => {
             let far = if JointLimits::range(min_angle, min_angle).is_err() { min } else { max };
-            far.out_of_range("within a thousand turns of 0")
+            far.out_of_range("within a thousand revolutions of 0")
         }
     })
 }
 
 fn rate(map: &Map<'_>, key: &str, units: Units) -> Result<Option<f64>, Fault> {
     map.optional(key)
-        .map(|value| match units.angle(value.number()?) {
+        .map(|value| match units.radians(value.number()?) {
             limit if limit > 0.0 => Ok(limit),
             _ => Err(value.out_of_range("greater than 0")),
         })

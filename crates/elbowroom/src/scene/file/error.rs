@@ -7,6 +7,7 @@ use crate::arm::{ArmError, MOST_LINKS};
 use crate::geometry::ShapeError;
 use crate::grid::GridError;
 use crate::scene::{ObstacleMotionError, SceneProblem};
+use crate::units::{Told, Units};
 
 /// Why a text is no scene: what is wrong, and where.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +43,7 @@ pub enum ParseProblem {
     /// No YAML.
     #[error("not YAML: {message}")]
     Syntax {
-        /// In the parser's words.
+        /// In words.
         message: String,
     },
     /// Nothing there.
@@ -99,7 +100,7 @@ pub enum ParseProblem {
         suggestion: Option<&'static str>,
     },
     /// A key that has to be there.
-    #[error("missing: {key}")]
+    #[error("missing: {key}{}", add(key))]
     MissingKey {
         /// Which.
         key: &'static str,
@@ -124,28 +125,28 @@ pub enum ParseProblem {
         /// What is written.
         found: String,
         /// What it has to be.
-        allowed: &'static str,
+        allowed: Box<str>,
     },
-    /// Stops more than 20 turns apart, in the file's unit.
+    /// Limits more than 20 turns apart, in the file's unit.
     #[error(
-        "{min} to {max} {unit} is {turns:.1} turns, more than 20: is `units.angle` right? A joint without stops is `continuous: true`"
+        "{min} to {max} {unit} is {turns:.1} turns, more than 20: is `units.angle` right? A joint without limits is `continuous: true`"
     )]
     LimitsTooWide {
-        /// Lower stop.
+        /// Lower limit.
         min: f64,
-        /// Upper stop.
+        /// Upper limit.
         max: f64,
         /// The file's unit of angles.
         unit: &'static str,
         /// How many turns that is.
         turns: f64,
     },
-    /// The lower stop is above the upper one, in the file's unit.
+    /// The lower limit is above the upper one, in the file's unit.
     #[error("min {min} is above max {max}")]
     LimitsReversed {
-        /// Lower stop.
+        /// Lower limit.
         min: f64,
-        /// Upper stop.
+        /// Upper limit.
         max: f64,
     },
     /// Fewer links than two, or more than are served.
@@ -181,22 +182,71 @@ pub enum ParseProblem {
         found: &'static str,
     },
     /// How an obstacle moves.
-    #[error(transparent)]
-    Motion(#[from] ObstacleMotionError),
+    #[error("{}", .0.told(*.1))]
+    Motion(ObstacleMotionError, Units),
     /// The measures of the arm.
-    #[error(transparent)]
-    Arm(#[from] ArmError),
+    #[error("{}", .0.told(*.1))]
+    Arm(Box<ArmError>, Units),
     /// The measures of an obstacle.
-    #[error(transparent)]
-    Obstacle(#[from] ShapeError),
+    #[error("{}", .0.told(*.1))]
+    Obstacle(ShapeError, Units),
     /// The grid.
-    #[error(transparent)]
-    Grid(#[from] GridError),
+    #[error("{}", .0.told(*.1))]
+    Grid(GridError, Units),
     /// The parts do not make a scene.
     #[error(transparent)]
     Scene(#[from] SceneProblem),
 }
 
+impl ParseProblem {
+    /// The same, told in `units`.
+    pub(super) fn in_units(self, units: Units) -> Self {
+        match self {
+            Self::Motion(error, _) => Self::Motion(error, units),
+            Self::Arm(error, _) => Self::Arm(error, units),
+            Self::Obstacle(error, _) => Self::Obstacle(error, units),
+            Self::Grid(error, _) => Self::Grid(error, units),
+            other => other,
+        }
+    }
+}
+
+impl From<ObstacleMotionError> for ParseProblem {
+    fn from(error: ObstacleMotionError) -> Self {
+        Self::Motion(error, Units::SI)
+    }
+}
+
+impl From<ArmError> for ParseProblem {
+    fn from(error: ArmError) -> Self {
+        Self::Arm(Box::new(error), Units::SI)
+    }
+}
+
+impl From<ShapeError> for ParseProblem {
+    fn from(error: ShapeError) -> Self {
+        Self::Obstacle(error, Units::SI)
+    }
+}
+
+impl From<GridError> for ParseProblem {
+    fn from(error: GridError) -> Self {
+        Self::Grid(error, Units::SI)
+    }
+}
+
 fn in_words(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |key| format!("; did you mean {key}?"))
+}
+
+/// What to write where a key is missing that newcomers do not know of.
+fn add(key: &str) -> &'static str {
+    match key {
+        "elbowroom" => "; add the version of the format as the first line, elbowroom: 1",
+        "units" => "; add what the numbers mean, such as units: {length: mm, angle: deg}",
+        "grid" => {
+            "; add the points of the free-space map, such as grid: {x: [-700, 700], y: [-700, 700], step: 10}"
+        }
+        _ => "",
+    }
 }

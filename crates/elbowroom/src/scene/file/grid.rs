@@ -1,7 +1,7 @@
 use super::keys::Keys;
-use super::units::Units;
 use super::value::{Fault, Value};
 use crate::grid::{Grid, GridError};
+use crate::units::Units;
 
 pub(super) const GRID: Keys = Keys { required: &["x", "y", "step"], optional: &[] };
 

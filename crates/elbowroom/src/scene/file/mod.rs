@@ -11,17 +11,17 @@ mod location;
 mod motion;
 mod node;
 mod obstacles;
+mod syntax;
 mod tasks;
 mod tree;
-mod units;
 mod value;
 
 pub use error::{ParseProblem, SceneError};
 pub use location::{Location, Locations};
 
 use super::Scene;
+use crate::units::{AngleUnit, LengthUnit, Units};
 use keys::Keys;
-use units::Units;
 use value::{Fault, Value};
 
 /// The version of the format that is read.
@@ -38,6 +38,8 @@ pub struct SceneFile {
     pub scene: Scene,
     /// Where its tasks are.
     pub locations: Locations,
+    /// What it is written in.
+    pub units: Units,
 }
 
 /// Reads a scene from `text`; errors call it `file`.
@@ -58,11 +60,13 @@ pub struct SceneFile {
 /// # Ok::<(), elbowroom::scene::SceneError>(())
 /// ```
 pub fn parse(text: &str, file: &str) -> Result<SceneFile, SceneError> {
-    let root = tree::tree(text).map_err(|fault| fault.in_file(file))?;
-    scene(&Value::root(&root)).map_err(|fault| fault.in_file(file))
+    let mut units = Units::SI;
+    let root = tree::tree(text).map_err(|fault| fault.in_file(file, units))?;
+    scene(&Value::root(&root), &mut units).map_err(|fault| fault.in_file(file, units))
 }
 
-fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
+/// The scene; its units are `known` as soon as they are read, so that errors can be told in them.
+fn scene(root: &Value<'_>, known: &mut Units) -> Result<SceneFile, Fault> {
     // Before all else: keys that are unknown here may be known to another version.
     if let Some(version) = root.peek("elbowroom") {
         version
@@ -71,6 +75,7 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
     }
     let map = root.map(&ROOT)?;
     let units = units(&map.required("units")?)?;
+    *known = units;
     let arm = arm::read(&map.required("arm")?, units)?;
     let grid = grid::read(&map.required("grid")?, units)?;
     let obstacles = match map.optional("obstacles") {
@@ -82,18 +87,17 @@ fn scene(root: &Value<'_>) -> Result<SceneFile, Fault> {
         None => Default::default(),
     };
     let scene = Scene::new(arm, grid, obstacles, tasks).map_err(|problem| root.fault(problem.into()))?;
-    Ok(SceneFile { scene, locations: Locations { ends } })
+    Ok(SceneFile { scene, locations: Locations { ends }, units })
 }
 
 fn units(value: &Value<'_>) -> Result<Units, Fault> {
     let map = value.map(&UNITS)?;
-    let per_metre = match map.required("length")?.word(&["m", "cm", "mm"])? {
-        "cm" => 100.0,
-        "mm" => 1000.0,
-        _ => 1.0,
-    };
-    let degrees = map.required("angle")?.word(&["rad", "deg"])? == "deg";
-    Ok(Units { per_metre, degrees })
+    let length = map.required("length")?.word(&LengthUnit::ALL.map(LengthUnit::name))?;
+    let angle = map.required("angle")?.word(&AngleUnit::ALL.map(AngleUnit::name))?;
+    Ok(Units {
+        length: LengthUnit::ALL.into_iter().find(|unit| unit.name() == length).unwrap_or_default(),
+        angle: AngleUnit::ALL.into_iter().find(|unit| unit.name() == angle).unwrap_or_default(),
+    })
 }
 
 #[cfg(test)]

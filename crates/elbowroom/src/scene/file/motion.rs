@@ -1,9 +1,9 @@
 use super::error::ParseProblem;
 use super::keys::Keys;
-use super::units::Units;
 use super::value::{Fault, Map, Value};
 use crate::geometry::Vector;
 use crate::scene::{Course, ObstacleMotion, ObstacleMotionError, Sight, Waypoint};
+use crate::units::Units;
 
 pub(super) const MOTION: Keys =
     Keys { required: &[], optional: &["waypoints", "velocity", "start", "chases", "keep_off"] };
@@ -43,7 +43,7 @@ fn course(motion: &Value<'_>, units: Units) -> Result<Course, Fault> {
                 let map = value.map(&WAYPOINT)?;
                 Ok(Waypoint { time: map.required("time")?.number()?, shift: shift(&map.required("shift")?)? })
             };
-            let list = waypoints.list("a list of way-points {time, shift}")?;
+            let list = waypoints.list("a list of waypoints {time, shift}")?;
             Ok(Course::Waypoints(list.iter().map(waypoint).collect::<Result<Vec<Waypoint>, Fault>>()?))
         }
         ([None, Some(velocity), None], start, None) => Ok(Course::Drift {

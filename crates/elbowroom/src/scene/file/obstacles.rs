@@ -3,11 +3,11 @@ use std::collections::HashSet;
 use super::error::ParseProblem;
 use super::keys::Keys;
 use super::motion;
-use super::units::Units;
 use super::value::{Fault, Value};
 use crate::geometry::{Point, Shape, ShapeError};
 use crate::scene::problem::MOST_OBSTACLES;
 use crate::scene::{Obstacle, SceneProblem};
+use crate::units::Units;
 
 pub(super) const OBSTACLE: Keys = Keys {
     required: &[],

@@ -2,10 +2,10 @@ use std::collections::BTreeMap;
 
 use super::Location;
 use super::keys::Keys;
-use super::units::Units;
 use super::value::{Fault, Value};
 use crate::scene::problem::{GREATEST_ANGLE, MOST_TASKS};
 use crate::scene::{Place, SceneProblem, Task, TaskPosture};
+use crate::units::Units;
 
 pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };
 pub(super) const PLACE: Keys = Keys { required: &["q"], optional: &[] };
@@ -69,9 +69,9 @@ fn names(joints: usize) -> String {
 }
 
 fn joint(value: &Value<'_>, units: Units) -> Result<f64, Fault> {
-    let angle = units.angle(value.number()?);
+    let angle = units.radians(value.number()?);
     if angle.abs() > GREATEST_ANGLE {
-        return Err(value.out_of_range("at most 1e4 rad in size"));
+        return Err(value.out_of_range(format!("at most {} in size", units.stated_angle(GREATEST_ANGLE))));
     }
     Ok(angle)
 }

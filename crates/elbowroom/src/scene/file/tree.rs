@@ -5,6 +5,7 @@ use saphyr_parser::{Event, Marker, Parser, ScalarStyle, ScanError};
 use super::Location;
 use super::error::ParseProblem;
 use super::node::{Entry, Kind, Node};
+use super::syntax::in_words;
 use super::value::{Fault, child};
 
 /// Most bytes that are read.
@@ -48,7 +49,7 @@ fn syntax(error: &ScanError) -> Fault {
         // The parser looks some way ahead and meets these before the builder does.
         "recursion limit exceeded" => TOO_DEEP,
         "while parsing node, found unknown anchor" => ParseProblem::NotPlain,
-        message => ParseProblem::Syntax { message: message.to_owned() },
+        message => ParseProblem::Syntax { message: in_words(message) },
     };
     Fault { at: Some(location(error.marker())), key: String::new(), problem }
 }

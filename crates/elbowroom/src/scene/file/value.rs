@@ -2,8 +2,8 @@ use super::Location;
 use super::error::{ParseProblem, SceneError};
 use super::keys::Keys;
 use super::node::{Entry, Kind, Node, shortened};
-use super::units::Units;
 use crate::geometry::Point;
+use crate::units::Units;
 
 /// Greatest length or coordinate (m): beyond it the last digits of a position are no longer nanometres.
 const GREATEST_LENGTH: f64 = 1e6;
@@ -17,8 +17,9 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    pub(super) fn in_file(self, file: &str) -> SceneError {
-        SceneError { file: file.to_owned(), location: self.at, key: self.key, problem: self.problem }
+    pub(super) fn in_file(self, file: &str, units: Units) -> SceneError {
+        let problem = self.problem.in_units(units);
+        SceneError { file: file.to_owned(), location: self.at, key: self.key, problem }
     }
 }
 
@@ -61,8 +62,8 @@ impl<'a> Value<'a> {
         self.fault(ParseProblem::Shape { found: self.node.in_words(), allowed: allowed.into() })
     }
 
-    pub(super) fn out_of_range(&self, allowed: &'static str) -> Fault {
-        self.fault(ParseProblem::OutOfRange { found: self.node.in_words(), allowed })
+    pub(super) fn out_of_range(&self, allowed: impl Into<Box<str>>) -> Fault {
+        self.fault(ParseProblem::OutOfRange { found: self.node.in_words(), allowed: allowed.into() })
     }
 
     /// The value of `key`, if this is a mapping that has it, sound or not.
@@ -164,9 +165,11 @@ impl<'a> Value<'a> {
 
     /// A coordinate or length (m).
     pub(super) fn length(&self, units: Units) -> Result<f64, Fault> {
-        let length = units.length(self.number()?);
+        let length = units.metres(self.number()?);
         if length.abs() > GREATEST_LENGTH {
-            return Err(self.out_of_range("at most 1e6 m in size"));
+            return Err(
+                self.out_of_range(format!("at most {} in size", units.stated_length(GREATEST_LENGTH)))
+            );
         }
         Ok(length)
     }
