@@ -71,7 +71,9 @@ def test_a_start_that_is_none_is_refused(tmp_path: Path, start: str) -> None:
 def test_a_late_first_row_is_not_safe(tmp_path: Path) -> None:
     late = check(tmp_path, GOOD.replace("sec: 1", "sec: 3").replace("sec: 0", "sec: 2"))
     assert late.exit_code == 4
-    assert late.stdout.splitlines()[1].startswith("NOT SAFE: how the arm gets to the first row in the 2.000 s before it")
+    assert late.stdout.splitlines()[1].startswith(
+        "NOT SAFE: how the arm gets to the first row in the 2.000 s before it"
+    )
 
 
 def test_a_motion_that_goes_on_is_not_safe_unless_asked_for(tmp_path: Path) -> None:
