@@ -27,7 +27,7 @@
 //! ```
 //!
 //! Modules import only from those before them:
-//! `units < geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < decomposition < roadmap < planning < planners < online`.
+//! `units < geometry < mesh < grid < search < random < swarm < arm < scene < free_space < path < trajectory < verify < optimise < decomposition < roadmap < planning < planners < online`.
 
 // Sine, logarithm and their like come from `libm`, which is the same everywhere: clippy.toml lists what does not.
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
@@ -39,6 +39,7 @@ pub mod geometry;
 pub mod grid;
 pub mod mesh;
 pub mod online;
+mod optimise;
 pub mod path;
 pub mod planners;
 pub mod planning;

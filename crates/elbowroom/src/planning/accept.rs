@@ -4,10 +4,13 @@ use super::candidate::Proposed;
 use super::limits::stated_limits;
 use super::smoothing::{SmoothError, Smoothed, Style, smooth};
 use super::{
-    AssumedLimit, END_ROUNDING, Found, Mismatch, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord,
-    Problem, Stage, mismatch,
+    AssumedLimit, END_ROUNDING, Found, Mismatch, Objective, Pace, PathToFollow, Pick, Plan, PlanError,
+    PlanRecord, Problem, Stage, mismatch,
 };
-use crate::arm::Configuration;
+use std::f64::consts::PI;
+
+use crate::arm::{Arm, Configuration, Joint, JointLimits};
+use crate::optimise::{Refinement, fastest};
 use crate::path::{JointPath, straight_move_is_free};
 use crate::scene::Scene;
 use crate::trajectory::Motion;
@@ -25,6 +28,9 @@ const SAME_COST: f64 = 1e-9;
 /// Looks at each piece of a motion for the path along it, at first and at the most.
 const LOOKS: [usize; 2] = [24, 3072];
 
+/// Places along a motion of many pieces, at first.
+const PLACES: usize = 480;
+
 /// A motion that the verifier accepts, and the path it goes along.
 struct Made {
     trajectory: Trajectory,
@@ -32,6 +38,8 @@ struct Made {
     path_cost: f64,
     /// Places of the path that the motion is led through, by their index.
     vias: Vec<usize>,
+    /// Whether the motion is ours to shape: it is, where a path was proposed.
+    is_ours: bool,
 }
 
 /// The plan of `planner` that the best, or the first, of the candidates makes.
@@ -75,7 +83,12 @@ pub(super) fn accepted(
             break;
         }
     }
-    let (cost, Made { trajectory, joint_path, path_cost, vias }) = best.ok_or(refused)?;
+    let (cost, made) = best.ok_or(refused)?;
+    let (cost, made) = match faster(problem, &made)? {
+        Some(faster) => (faster.trajectory.motion().duration(), faster),
+        None => (cost, made),
+    };
+    let Made { trajectory, joint_path, path_cost, vias, .. } = made;
     let record = PlanRecord {
         cost,
         lower_bound,
@@ -101,6 +114,47 @@ fn kept(assumed: &[AssumedLimit], trajectory: &Trajectory) -> Vec<AssumedLimit> 
             .is_some_and(|margin| margin.largest <= limit.value * (1.0 + SAME_COST))
     };
     assumed.iter().filter(keeps).copied().collect()
+}
+
+/// The fastest motion near a motion of ours, where time is what counts and there is a faster one.
+///
+/// # Errors
+/// [`PlanError::Stopped`]
+fn faster(problem: &Problem<'_>, made: &Made) -> Result<Option<Made>, PlanError> {
+    let (scene, motion) = (problem.scene, made.trajectory.motion());
+    let wanted = problem.settings.objective == Objective::Time && problem.settings.pace == Pace::Fastest;
+    if !(wanted && made.is_ours && motion.duration() > 0.0) {
+        return Ok(None);
+    }
+    let keep_going = || problem.monitor.keep_going();
+    let start = motion.at(motion.start()).position;
+    let ranges = ranges(scene.arm(), problem.endpoints.keep_posture, &start);
+    let refinement = Refinement { scene, limits: &problem.limits, ranges: &ranges, keep_going: &keep_going };
+    let found = fastest(&refinement, motion);
+    problem.go_on()?;
+    let is_faster = |found: &Trajectory| {
+        found.motion().duration() < motion.duration() && mismatched(problem, found).is_none()
+    };
+    Ok(found.filter(is_faster).map(|trajectory| {
+        let (joint_path, vias) = followed(scene, trajectory.motion());
+        let path_cost = trajectory.motion().tip_length(scene.arm());
+        let vias = [vias[0], vias[vias.len() - 1]].to_vec();
+        Made { trajectory, joint_path, path_cost, vias, is_ours: true }
+    }))
+}
+
+/// Where each joint may be (rad): within its limits, and where the posture is kept, on its side of full stretch and fold.
+fn ranges(arm: &Arm, keep_posture: bool, start: &[f64]) -> Vec<[f64; 2]> {
+    let range = |joint: &Joint| match joint.limits {
+        JointLimits::Continuous => [f64::NEG_INFINITY, f64::INFINITY],
+        JointLimits::Range { min, max } => [min, max],
+    };
+    let mut ranges: Vec<[f64; 2]> = arm.joints().iter().map(range).collect();
+    if let (true, [_, second], [_, bend]) = (keep_posture, &mut ranges[..], start) {
+        let half_turn = (bend / PI).floor();
+        *second = [second[0].max(half_turn * PI), second[1].min((half_turn + 1.0) * PI)];
+    }
+    ranges
 }
 
 /// How the motion fails to be what was asked for.
@@ -137,7 +191,13 @@ fn along(
     }
     let smoothed = smoothed(problem, planner, &follow)?;
     let path_cost = follow.tip_travel(problem.scene.arm());
-    Ok(Made { trajectory: smoothed.trajectory, joint_path: follow.path, path_cost, vias: smoothed.vias })
+    Ok(Made {
+        trajectory: smoothed.trajectory,
+        joint_path: follow.path,
+        path_cost,
+        vias: smoothed.vias,
+        is_ours: true,
+    })
 }
 
 /// The path, smoothed.
@@ -184,12 +244,13 @@ fn judged(problem: &Problem<'_>, planner: &str, motion: Motion) -> Result<Made, 
         })?;
     let (joint_path, vias) = followed(problem.scene, trajectory.motion());
     let path_cost = trajectory.motion().tip_length(problem.scene.arm());
-    Ok(Made { trajectory, joint_path, path_cost, vias })
+    Ok(Made { trajectory, joint_path, path_cost, vias, is_ours: false })
 }
 
 /// A path along the motion, as dense as its straight moves need to be certified, and its places where pieces meet.
 fn followed(scene: &Scene, motion: &Motion) -> (JointPath, Vec<usize>) {
     let [mut count, most] = LOOKS;
+    count = count.min(PLACES / motion.pieces().len()).max(1);
     loop {
         let places = motion.instants(count);
         let certified = places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1]));

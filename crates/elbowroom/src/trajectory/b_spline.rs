@@ -21,6 +21,11 @@ pub(crate) fn spline_along(
     }
     let last = control.last()?.clone();
     control.extend([last.clone(), last]);
+    spline_of(start, step, &control)
+}
+
+/// The uniform cubic B-spline with these control points (rad) every `step` seconds; it begins at `start` (s), near the second.
+pub(crate) fn spline_of(start: f64, step: f64, control: &[Vec<f64>]) -> Option<Motion> {
     let states: Vec<State> = control.windows(3).map(|points| at_knot(points, step)).collect();
     let pieces = states.windows(2).enumerate().map(|(i, ends)| {
         // A cubic is the quintic between its own ends.

@@ -13,7 +13,7 @@ mod spline;
 mod timing;
 mod via;
 
-pub(crate) use b_spline::{spline_along, third_point};
+pub(crate) use b_spline::{spline_along, spline_of, third_point};
 pub use brake::brake;
 pub use departure::departing;
 pub use interpolate::{Curve, Interpolated, MAX_ROWS, Samples, SamplesError, interpolate};

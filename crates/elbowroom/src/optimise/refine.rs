@@ -1,0 +1,184 @@
+use super::approach::approaches;
+use super::control::Control;
+use super::program::{Look, Program};
+use crate::scene::Scene;
+use crate::trajectory::{Motion, SpeedLimits};
+use crate::verify::{Trajectory, VerifySettings, Violation};
+
+/// How to look for the fastest motion. Lengths are shares of the reach.
+struct Settings {
+    /// Pieces of constant jerk.
+    pieces: usize,
+    /// Where every piece is looked at, as shares of it.
+    shares: [f64; 3],
+    /// Clearance that is kept at the places looked at, and by how much it grows with every search.
+    margin: f64,
+    wider: f64,
+    /// Links nearer than this to something count.
+    near: f64,
+    /// How far a control point may move in the first step (rad), at most, and when a step is too small to go on.
+    trust: [f64; 3],
+    /// By what the reach of a step changes after one that was better, and one that was not.
+    trusted: f64,
+    distrusted: f64,
+    /// What being one reach deep costs, in durations.
+    penalty: f64,
+    /// Gain, as a share, with which a search ends.
+    gain: f64,
+    /// Most steps of one search.
+    steps: usize,
+    /// Searches, each with more places to look at.
+    rounds: usize,
+}
+
+const SETTINGS: Settings = Settings {
+    pieces: 48,
+    shares: [0.0, 1.0 / 3.0, 2.0 / 3.0],
+    margin: 3e-4,
+    wider: 1.6,
+    near: 0.1,
+    trust: [0.3, 1.0, 1e-4],
+    trusted: 1.5,
+    distrusted: 0.4,
+    penalty: 50.0,
+    gain: 3e-4,
+    steps: 25,
+    rounds: 6,
+};
+
+/// What the fastest motion has to keep to.
+pub(crate) struct Refinement<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) limits: &'a [SpeedLimits],
+    /// Where each joint may be (rad).
+    pub(crate) ranges: &'a [[f64; 2]],
+    pub(crate) keep_going: &'a dyn Fn() -> bool,
+}
+
+/// The fastest motion that is found near `motion`, from its start to its end, at rest at both, proved to be safe; `None` where that
+/// is not found, or `keep_going` said no.
+pub(crate) fn fastest(refinement: &Refinement<'_>, motion: &Motion) -> Option<Trajectory> {
+    let [_, reach] = refinement.scene.arm().reach();
+    let mut search = Search {
+        refinement,
+        reach,
+        places: (0..SETTINGS.pieces).flat_map(|piece| SETTINGS.shares.map(|share| (piece, share))).collect(),
+        margin: SETTINGS.margin * reach,
+    };
+    let mut control = Control::of(motion, SETTINGS.pieces);
+    for _ in 0..SETTINGS.rounds {
+        control = search.improved(control)?;
+        let step = control.least_step(refinement.limits);
+        let found = control.motion(step)?;
+        let settings = VerifySettings::default();
+        match Trajectory::certify_until(refinement.scene, found, &settings, refinement.keep_going) {
+            Ok(trajectory) => return Some(trajectory),
+            Err(verdict) => {
+                if !(refinement.keep_going)() {
+                    return None;
+                }
+                let contact = |violation: &Violation| {
+                    matches!(violation, Violation::Contact { .. } | Violation::Undecided { .. })
+                };
+                let times: Vec<f64> =
+                    verdict.violations.iter().filter(|it| contact(it)).map(Violation::time).collect();
+                if times.len() < verdict.violations.len() || times.is_empty() {
+                    return None;
+                }
+                search.look_at(&times, step);
+                search.margin *= SETTINGS.wider;
+            }
+        }
+    }
+    None
+}
+
+struct Search<'a> {
+    refinement: &'a Refinement<'a>,
+    reach: f64,
+    /// Pieces, and shares of them, where is looked.
+    places: Vec<(usize, f64)>,
+    margin: f64,
+}
+
+impl Search<'_> {
+    /// Control points from which no step is better by more than a little.
+    fn improved(&self, start: Control) -> Option<Control> {
+        let Refinement { limits, ranges, keep_going, .. } = *self.refinement;
+        let mut control = start;
+        let mut looks = self.looks(&control);
+        let mut step = control.least_step(limits);
+        let whole = step;
+        let merit = |step: f64, looks: &[Look]| step / whole + SETTINGS.penalty * self.depth(looks);
+        let mut best = merit(step, &looks);
+        let [mut trust, widest, narrowest] = SETTINGS.trust;
+        for _ in 0..SETTINGS.steps {
+            if !keep_going() {
+                return None;
+            }
+            let program = Program {
+                control: &control,
+                step,
+                limits,
+                ranges,
+                looks: &looks,
+                margin: self.margin,
+                reach: self.reach,
+                trust,
+                penalty: SETTINGS.penalty * whole / step,
+            };
+            let Some(next) = program.solved() else {
+                trust *= SETTINGS.distrusted;
+                if trust < narrowest {
+                    break;
+                }
+                continue;
+            };
+            let (next_step, next_looks) = (next.least_step(limits), self.looks(&next));
+            let found = merit(next_step, &next_looks);
+            if found < best {
+                let gain = best - found;
+                (control, step, looks, best) = (next, next_step, next_looks, found);
+                trust = (trust * SETTINGS.trusted).min(widest);
+                if gain < SETTINGS.gain * best {
+                    break;
+                }
+            } else {
+                trust *= SETTINGS.distrusted;
+                // As good as the last, but for rounding: there is nothing left to gain.
+                if trust < narrowest || found - best < SETTINGS.gain * SETTINGS.gain * best {
+                    break;
+                }
+            }
+        }
+        Some(control)
+    }
+
+    fn looks(&self, control: &Control) -> Vec<Look> {
+        let look = |&(piece, share): &(usize, f64)| {
+            let q = control.position(piece, share);
+            let approaches = approaches(self.refinement.scene, &q, SETTINGS.near * self.reach);
+            Look { piece, share, approaches }
+        };
+        self.places.iter().map(look).collect()
+    }
+
+    /// How far the margin is missed at the worst (reaches).
+    fn depth(&self, looks: &[Look]) -> f64 {
+        let all = looks.iter().flat_map(|look| &look.approaches);
+        all.map(|approach| (self.margin - approach.clearance) / self.reach).fold(0.0, f64::max)
+    }
+
+    /// From now on looks more closely where something was touched at these times (s).
+    fn look_at(&mut self, times: &[f64], step: f64) {
+        for time in times {
+            for nearby in [-1.0 / 6.0, 0.0, 1.0 / 6.0] {
+                let at = (time / step + nearby).clamp(0.0, SETTINGS.pieces as f64 - 1e-9);
+                let place = (at as usize, at.fract());
+                if !self.places.contains(&place) {
+                    self.places.push(place);
+                }
+            }
+        }
+    }
+}
