@@ -7,12 +7,18 @@ import math
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from elbowroom._core import MAX_ROWS, TICK, PaperPlan, Plan, __version__
 from elbowroom.errors import BadSetting
 from elbowroom.plan import AnyPlan
 from elbowroom.samples import Samples
 from elbowroom.trajectory_files import RATES, columns_of
 from elbowroom.whole_files import write_whole
+
+
+ON_TICK = 1e-6
+"""How far from a tick, in ticks, pieces meet that meet on it."""
 
 
 def columns(joints: int) -> list[str]:
@@ -93,8 +99,19 @@ def write_plan(plan: AnyPlan, folder: Path) -> list[Path]:
 
 
 def as_csv(plan: AnyPlan) -> str:
-    """Return the motion every 10 ms, both ends included, as text of floats that round-trip."""
-    return table(plan.sample(period=TICK))
+    """Return the motion every 10 ms or somewhat less, both ends included, as text of floats that round-trip.
+
+    There is a row wherever two pieces meet, so that what is read back is the motion itself.
+    """
+    starts, durations = plan.motion.starts, plan.motion.durations
+    on_ticks = np.abs(starts / TICK - np.round(starts / TICK)) < ON_TICK
+    if bool(on_ticks.all()):
+        return table(plan.sample(period=TICK))
+    rows = [
+        start + duration * np.arange(count) / count
+        for start, duration, count in zip(starts, durations, np.ceil(durations / TICK - ON_TICK), strict=True)
+    ]
+    return table(plan.at(np.append(np.concatenate(rows), plan.motion.duration)))
 
 
 def table(samples: Samples) -> str:

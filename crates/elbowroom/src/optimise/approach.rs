@@ -131,3 +131,87 @@ fn deepest(shape: &Shape, link: Segment) -> Nearest {
     }
     best
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arm::{Arm, Joint};
+    use crate::grid::Grid;
+    use crate::path::{link_clearances, self_clearance};
+    use crate::random::unit;
+    use crate::scene::Obstacle;
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    fn world(rng: &mut ChaCha8Rng) -> Scene {
+        let links = 2 + (4.0 * unit(rng)) as usize;
+        let arm = Arm::new(
+            Point::new(0.1, -0.2),
+            vec![1.0 / links as f64; links],
+            0.03 * unit(rng),
+            vec![Joint::CONTINUOUS; links],
+            links > 2,
+        );
+        let mut place = || Point::new(2.4 * unit(rng) - 1.2, 2.4 * unit(rng) - 1.2);
+        let (center, at) = (place(), place());
+        let corner = |i: usize, radius: f64| at + Vector::polar(radius, 1.3 * i as f64);
+        let mut shapes = vec![
+            Shape::circle(center, 0.15).unwrap(),
+            Shape::segment(place(), place(), 0.02).unwrap(),
+            Shape::polygon((0..4).map(|i| corner(i, 0.3)).collect()).unwrap(),
+        ];
+        // The same, the other way round.
+        shapes.push(Shape::polygon((0..4).rev().map(|i| corner(i, 0.2)).collect()).unwrap());
+        let grid = Grid::new([-2.0, 2.0], [-2.0, 2.0], 0.5).unwrap();
+        Scene::new(arm.unwrap(), grid, shapes.into_iter().map(Obstacle::still).collect(), Vec::new()).unwrap()
+    }
+
+    #[test]
+    fn the_least_clearance_is_that_of_the_scene_s_own_distances() {
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        let mut apart = 0;
+        for _ in 0..3000 {
+            let scene = world(&mut rng);
+            let q: Vec<f64> = (0..scene.arm().links()).map(|_| 6.0 * unit(&mut rng) - 3.0).collect();
+            let found =
+                approaches(&scene, &q, 10.0).iter().map(|it| it.clearance).fold(f64::INFINITY, f64::min);
+            let links = link_clearances(&scene, &q).into_iter().fold(f64::INFINITY, f64::min);
+            let least = links.min(self_clearance(&scene, &q));
+            if least > 0.0 {
+                apart += 1;
+                assert!((found - least).abs() < 1e-9, "{found} {least}");
+            }
+        }
+        assert!(apart > 500, "{apart}");
+    }
+
+    #[test]
+    fn gradients_are_those_of_differences_apart_and_in_contact() {
+        let mut rng = ChaCha8Rng::seed_from_u64(2);
+        let (mut apart, mut deep, mut off) = (0, 0, 0);
+        for _ in 0..2000 {
+            let scene = world(&mut rng);
+            let links = scene.arm().links();
+            let q: Vec<f64> = (0..links).map(|_| 6.0 * unit(&mut rng) - 3.0).collect();
+            let here = approaches(&scene, &q, 10.0);
+            for j in 0..links {
+                let moved = |by: f64| {
+                    let mut q = q.clone();
+                    q[j] += by;
+                    approaches(&scene, &q, 10.0)
+                };
+                let (before, after) = (moved(-1e-6), moved(1e-6));
+                if before.len() != here.len() || after.len() != here.len() {
+                    continue;
+                }
+                for (i, it) in here.iter().enumerate() {
+                    let slope = (after[i].clearance - before[i].clearance) / 2e-6;
+                    *(if it.clearance > 0.0 { &mut apart } else { &mut deep }) += 1;
+                    off += usize::from((slope - it.gradient[j]).abs() > 1e-4);
+                }
+            }
+        }
+        // Where the nearest features change there is no gradient.
+        assert!(apart > 10_000 && deep > 500 && off * 200 < apart + deep, "{apart} {deep} {off}");
+    }
+}

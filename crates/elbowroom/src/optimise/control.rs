@@ -34,10 +34,6 @@ impl Control {
         self.points.len() / self.joints
     }
 
-    pub(super) fn pieces(&self) -> usize {
-        self.len() - 3
-    }
-
     /// Which points may be moved.
     pub(super) fn free(&self) -> std::ops::Range<usize> {
         3..self.len() - 3

@@ -93,7 +93,7 @@ impl Program<'_> {
         for (j, limits) in self.limits.iter().enumerate() {
             for (order, limit) in [(1, limits.velocity), (2, limits.acceleration), (3, limits.jerk)] {
                 let power = order as f64;
-                let most = limit * self.step.powi(order as i32);
+                let most = limit * libm::pow(self.step, power);
                 if !most.is_finite() {
                     continue;
                 }

@@ -7,8 +7,9 @@ use crate::verify::{Trajectory, VerifySettings, Violation};
 
 /// How to look for the fastest motion. Lengths are shares of the reach.
 struct Settings {
-    /// Pieces of constant jerk.
-    pieces: usize,
+    /// Pieces of constant jerk: of arms of few joints, and of many, whose programs are large.
+    pieces: [usize; 2],
+    few: usize,
     /// Where every piece is looked at, as shares of it.
     shares: [f64; 3],
     /// Clearance that is kept at the places looked at, and by how much it grows with every search.
@@ -32,7 +33,8 @@ struct Settings {
 }
 
 const SETTINGS: Settings = Settings {
-    pieces: 48,
+    pieces: [48, 32],
+    few: 5,
     shares: [0.0, 1.0 / 3.0, 2.0 / 3.0],
     margin: 3e-4,
     wider: 1.6,
@@ -58,14 +60,17 @@ pub(crate) struct Refinement<'a> {
 /// The fastest motion that is found near `motion`, from its start to its end, at rest at both, proved to be safe; `None` where that
 /// is not found, or `keep_going` said no.
 pub(crate) fn fastest(refinement: &Refinement<'_>, motion: &Motion) -> Option<Trajectory> {
-    let [_, reach] = refinement.scene.arm().reach();
+    let arm = refinement.scene.arm();
+    let [_, reach] = arm.reach();
+    let pieces = SETTINGS.pieces[usize::from(arm.links() > SETTINGS.few)];
     let mut search = Search {
         refinement,
         reach,
-        places: (0..SETTINGS.pieces).flat_map(|piece| SETTINGS.shares.map(|share| (piece, share))).collect(),
+        pieces,
+        places: (0..pieces).flat_map(|piece| SETTINGS.shares.map(|share| (piece, share))).collect(),
         margin: SETTINGS.margin * reach,
     };
-    let mut control = Control::of(motion, SETTINGS.pieces);
+    let mut control = Control::of(motion, pieces);
     for _ in 0..SETTINGS.rounds {
         control = search.improved(control)?;
         let step = control.least_step(refinement.limits);
@@ -96,6 +101,7 @@ pub(crate) fn fastest(refinement: &Refinement<'_>, motion: &Motion) -> Option<Tr
 struct Search<'a> {
     refinement: &'a Refinement<'a>,
     reach: f64,
+    pieces: usize,
     /// Pieces, and shares of them, where is looked.
     places: Vec<(usize, f64)>,
     margin: f64,
@@ -173,7 +179,7 @@ impl Search<'_> {
     fn look_at(&mut self, times: &[f64], step: f64) {
         for time in times {
             for nearby in [-1.0 / 6.0, 0.0, 1.0 / 6.0] {
-                let at = (time / step + nearby).clamp(0.0, SETTINGS.pieces as f64 - 1e-9);
+                let at = (time / step + nearby).clamp(0.0, self.pieces as f64 - 1e-9);
                 let place = (at as usize, at.fract());
                 if !self.places.contains(&place) {
                     self.places.push(place);

@@ -1,18 +1,12 @@
 //! From what a planner found, paths or motions, to one that is accepted.
 
 use super::candidate::Proposed;
+use super::faster::fastest_of;
 use super::limits::stated_limits;
+use super::made::{Made, followed, mismatched};
 use super::smoothing::{SmoothError, Smoothed, Style, smooth};
-use super::{
-    AssumedLimit, END_ROUNDING, Found, Mismatch, Objective, Pace, PathToFollow, Pick, Plan, PlanError,
-    PlanRecord, Problem, Stage, mismatch,
-};
-use std::f64::consts::PI;
-
-use crate::arm::{Arm, Configuration, Joint, JointLimits};
-use crate::optimise::{Refinement, fastest};
-use crate::path::{JointPath, straight_move_is_free};
-use crate::scene::Scene;
+use super::{AssumedLimit, Found, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage};
+use crate::path::JointPath;
 use crate::trajectory::Motion;
 use crate::verify::{Trajectory, VerifySettings};
 
@@ -25,22 +19,8 @@ const CLOSER: f64 = 0.1;
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
-/// Looks at each piece of a motion for the path along it, at first and at the most.
-const LOOKS: [usize; 2] = [24, 3072];
-
-/// Places along a motion of many pieces, at first.
-const PLACES: usize = 480;
-
-/// A motion that the verifier accepts, and the path it goes along.
-struct Made {
-    trajectory: Trajectory,
-    joint_path: JointPath,
-    path_cost: f64,
-    /// Places of the path that the motion is led through, by their index.
-    vias: Vec<usize>,
-    /// Whether the motion is ours to shape: it is, where a path was proposed.
-    is_ours: bool,
-}
+/// Motions that are kept, the best of them: to be made faster where time is what counts.
+const SHAPED: usize = 3;
 
 /// The plan of `planner` that the best, or the first, of the candidates makes.
 ///
@@ -56,7 +36,7 @@ pub(super) fn accepted(
     let (scene, objective) = (problem.scene, problem.settings.objective);
     let evaluations = found.effort.as_ref().map_or(0, |effort| effort.evaluations);
     let mut refused = PlanError::NotFoundInBudget { evaluations };
-    let mut best: Option<(f64, Made)> = None;
+    let mut ranked: Vec<(f64, Made)> = Vec::new();
     for candidate in found.candidates {
         let made = match candidate.0 {
             Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified),
@@ -76,18 +56,14 @@ pub(super) fn accepted(
             continue;
         }
         let cost = objective.of_motion(scene.arm(), trajectory.motion());
-        if best.as_ref().is_none_or(|(known, of)| is_better((cost, &made), (*known, of))) {
-            best = Some((cost, made));
-        }
+        let rank = ranked.iter().position(|(known, of)| is_better((cost, &made), (*known, of)));
+        ranked.insert(rank.unwrap_or(ranked.len()), (cost, made));
+        ranked.truncate(SHAPED);
         if found.pick == Pick::First {
             break;
         }
     }
-    let (cost, made) = best.ok_or(refused)?;
-    let (cost, made) = match faster(problem, &made)? {
-        Some(faster) => (faster.trajectory.motion().duration(), faster),
-        None => (cost, made),
-    };
+    let (cost, made) = fastest_of(problem, ranked)?.ok_or(refused)?;
     let Made { trajectory, joint_path, path_cost, vias, .. } = made;
     let record = PlanRecord {
         cost,
@@ -114,60 +90,6 @@ fn kept(assumed: &[AssumedLimit], trajectory: &Trajectory) -> Vec<AssumedLimit> 
             .is_some_and(|margin| margin.largest <= limit.value * (1.0 + SAME_COST))
     };
     assumed.iter().filter(keeps).copied().collect()
-}
-
-/// The fastest motion near a motion of ours, where time is what counts and there is a faster one.
-///
-/// # Errors
-/// [`PlanError::Stopped`]
-fn faster(problem: &Problem<'_>, made: &Made) -> Result<Option<Made>, PlanError> {
-    let (scene, motion) = (problem.scene, made.trajectory.motion());
-    let wanted = problem.settings.objective == Objective::Time && problem.settings.pace == Pace::Fastest;
-    if !(wanted && made.is_ours && motion.duration() > 0.0) {
-        return Ok(None);
-    }
-    let keep_going = || problem.monitor.keep_going();
-    let start = motion.at(motion.start()).position;
-    let ranges = ranges(scene.arm(), problem.endpoints.keep_posture, &start);
-    let refinement = Refinement { scene, limits: &problem.limits, ranges: &ranges, keep_going: &keep_going };
-    let found = fastest(&refinement, motion);
-    problem.go_on()?;
-    let is_faster = |found: &Trajectory| {
-        found.motion().duration() < motion.duration() && mismatched(problem, found).is_none()
-    };
-    Ok(found.filter(is_faster).map(|trajectory| {
-        let (joint_path, vias) = followed(scene, trajectory.motion());
-        let path_cost = trajectory.motion().tip_length(scene.arm());
-        let vias = [vias[0], vias[vias.len() - 1]].to_vec();
-        Made { trajectory, joint_path, path_cost, vias, is_ours: true }
-    }))
-}
-
-/// Where each joint may be (rad): within its limits, and where the posture is kept, on its side of full stretch and fold.
-fn ranges(arm: &Arm, keep_posture: bool, start: &[f64]) -> Vec<[f64; 2]> {
-    let range = |joint: &Joint| match joint.limits {
-        JointLimits::Continuous => [f64::NEG_INFINITY, f64::INFINITY],
-        JointLimits::Range { min, max } => [min, max],
-    };
-    let mut ranges: Vec<[f64; 2]> = arm.joints().iter().map(range).collect();
-    if let (true, [_, second], [_, bend]) = (keep_posture, &mut ranges[..], start) {
-        let half_turn = (bend / PI).floor();
-        *second = [second[0].max(half_turn * PI), second[1].min((half_turn + 1.0) * PI)];
-    }
-    ranges
-}
-
-/// How the motion fails to be what was asked for.
-fn mismatched(problem: &Problem<'_>, trajectory: &Trajectory) -> Option<Mismatch> {
-    let (motion, changes) = (trajectory.motion(), &trajectory.verdict().posture_changes);
-    let takes = motion.duration();
-    match problem.settings.pace {
-        // An arm that is there already takes no time.
-        Pace::Duration(asked) if takes > 0.0 && (takes - asked).abs() > END_ROUNDING => {
-            Some(Mismatch::Duration { takes, asked })
-        }
-        _ => mismatch(problem.scene, problem.task, motion, changes),
-    }
 }
 
 /// Whether one costs less, or the same with more clearance.
@@ -245,19 +167,4 @@ fn judged(problem: &Problem<'_>, planner: &str, motion: Motion) -> Result<Made, 
     let (joint_path, vias) = followed(problem.scene, trajectory.motion());
     let path_cost = trajectory.motion().tip_length(problem.scene.arm());
     Ok(Made { trajectory, joint_path, path_cost, vias, is_ours: false })
-}
-
-/// A path along the motion, as dense as its straight moves need to be certified, and its places where pieces meet.
-fn followed(scene: &Scene, motion: &Motion) -> (JointPath, Vec<usize>) {
-    let [mut count, most] = LOOKS;
-    count = count.min(PLACES / motion.pieces().len()).max(1);
-    loop {
-        let places = motion.instants(count);
-        let certified = places.windows(2).all(|pair| straight_move_is_free(scene, &pair[0], &pair[1]));
-        if certified || count >= most {
-            let vias = (0..=motion.pieces().len()).map(|i| i * count).collect();
-            return (JointPath(places.into_iter().map(Configuration::from).collect()), vias);
-        }
-        count *= 2;
-    }
 }
