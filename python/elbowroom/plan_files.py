@@ -16,7 +16,6 @@ from elbowroom.samples import Samples
 from elbowroom.trajectory_files import RATES, columns_of
 from elbowroom.whole_files import write_whole
 
-
 ON_TICK = 1e-6
 """How far from a tick, in ticks, pieces meet that meet on it."""
 
@@ -101,11 +100,11 @@ def write_plan(plan: AnyPlan, folder: Path) -> list[Path]:
 def as_csv(plan: AnyPlan) -> str:
     """Return the motion every 10 ms or somewhat less, both ends included, as text of floats that round-trip.
 
-    There is a row wherever two pieces meet, so that what is read back is the motion itself.
+    There is a row wherever two pieces of a verified motion meet, so that what is read back is the motion itself.
     """
     starts, durations = plan.motion.starts, plan.motion.durations
     on_ticks = np.abs(starts / TICK - np.round(starts / TICK)) < ON_TICK
-    if bool(on_ticks.all()):
+    if isinstance(plan, PaperPlan) or bool(on_ticks.all()):
         return table(plan.sample(period=TICK))
     rows = [
         start + duration * np.arange(count) / count
