@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import statistics
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,13 +36,13 @@ def cases() -> list[Case]:
     return found + [Case(name, "as built", er.Scene.example(name)) for name in ("abb-irb-910sc-065", "fanuc-sr-3ia")]
 
 
-def gains(seeds: int) -> list[str]:
+def gains(seeds: int, cases: Sequence[Case]) -> list[str]:
     """Return the table of what the swarm gains: the median over the seeds, and the worst of them."""
     rows = [
         "| scene | joint 1 | task | objective | dstar | dstar-pso, median | worst | gain | optimal |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
-    for case in cases():
+    for case in cases:
         for task in case.scene.tasks:
             for objective, unit, scale in OBJECTIVES:
                 alone = er.plan(case.scene, task=task, planner="dstar", objective=objective).cost * scale
@@ -71,7 +72,7 @@ def main() -> None:
         f"timed. Made by `make tables`: {options.seeds} seeds, default settings; limits a scene does not state are",
         "assumed.",
         "",
-        *gains(options.seeds),
+        *gains(options.seeds, cases()),
     ]
     options.out.parent.mkdir(parents=True, exist_ok=True)
     options.out.write_text("\n".join(text) + "\n", encoding="utf-8")

@@ -9,18 +9,21 @@ import atheris
 
 with atheris.instrument_imports():
     from elbowroom.errors import TrajectoryError
-    from elbowroom.trajectory_files import read_trajectory
+    from elbowroom.trajectory_files import read_messages
 
 FOLDER = Path(tempfile.mkdtemp())
 
 
 def one(data: bytes) -> None:
-    """Read the bytes as each kind of file."""
+    """Read the bytes as each kind of file, every message of it, with joints by number and by name."""
     for kind in ("csv", "json", "yaml"):
         path = FOLDER / f"t.{kind}"
         path.write_bytes(data)
         with contextlib.suppress(TrajectoryError):
-            read_trajectory(path, joints=2)
+            for message in read_messages(path):
+                for names in (None, ["shoulder", "elbow"]):
+                    with contextlib.suppress(TrajectoryError):
+                        message.read(joints=2, names=names)
 
 
 atheris.Setup(sys.argv, one)

@@ -132,7 +132,7 @@ TURNING = er.Joint(continuous=True)
         (lambda: er.Circle(center=(0.0, 0.0), radius=1.0).shifted((math.nan, 0.0)), "circle", "NaN m"),
         (lambda: er.Segment(start=(0.0, 0.0), end=(0.0, 0.0), radius=0.1), "segment", "both ends are at"),
         (lambda: er.Segment(start=(0.0, 0.0), end=(0.1, 0.0), radius=-0.1), "segment", "radius -0.1 m"),
-        (lambda: er.Polygon(vertices=[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]), "polygon", "edge 0"),
+        (lambda: er.Polygon(vertices=[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)]), "polygon", "from corner 1"),
         (lambda: er.ObstacleMotion(), "motion", "one of waypoints, velocity, chases"),
         (lambda: er.ObstacleMotion(chases=True), "motion", "greatest_speed is needed beside chases"),
         (lambda: er.ObstacleMotion(chases=True, greatest_speed=1.0, start=2.0), "motion", "start is for what moves"),

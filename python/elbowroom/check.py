@@ -19,6 +19,9 @@ from elbowroom.trajectory_files import Message, read_messages
 from elbowroom.trajectory_samples import TrajectorySamples
 from elbowroom.whole import is_whole
 
+FAR = 2.0 * math.tau
+"""Joints that are farther from 0 than this (rad) may have been meant in degrees."""
+
 START_ROUNDING = 1e-9
 """How far from a first row at 0 s the arm may stand (rad): room for the rounding of degrees."""
 
@@ -289,6 +292,11 @@ def _answer(
         which = f" message {number}:" if len(found) > 1 else ""
         raise TrajectoryError(f"{path}:{which} {error}") from None
     notes = samples.notes
+    if (greatest := float(np.abs(samples.q).max(initial=0.0))) > FAR:
+        notes = (
+            *notes,
+            f"positions are up to {greatest:.3g} rad, {greatest / math.tau:.1f} revolutions: are they degrees?",
+        )
     if samples.first != 0.0 and not samples.since_start and start is None and not _moves(scene):
         notes = (*notes, f"times count from the first row, which is at {samples.first:.17g} s in the file")
     return JudgedMessage(number=number, count=len(found), check=answer, notes=notes)

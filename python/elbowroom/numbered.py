@@ -1,8 +1,18 @@
-"""Joints and links by their numbers, in words."""
+"""Joints and links by their numbers, and how many of something, in words."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+
+
+def counted(number: int, noun: str) -> str:
+    """Return ``number`` of ``noun``.
+
+    Example:
+        >>> counted(1, "piece"), counted(0, "piece"), counted(12, "linear piece")
+        ('1 piece', '0 pieces', '12 linear pieces')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def numbered(noun: str, numbers: Sequence[int]) -> str:

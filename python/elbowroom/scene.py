@@ -71,9 +71,12 @@ def text_of(path: str | Path) -> str:
     if len(content) > LARGEST_FILE:
         raise refused("more than 4 MiB, which is the most a scene file may have")
     try:
-        return content.decode("utf-8")
+        text = content.decode("utf-8")
     except UnicodeDecodeError as error:
         raise refused(f"byte {error.start} is not UTF-8") from None
+    if "joint_names" in text and "elbowroom" not in text:
+        raise refused("this is a trajectory, not a scene; the scene comes first, then the trajectory")
+    return text
 
 
 def example_text(name: str) -> str:

@@ -101,6 +101,17 @@ def read_trajectory(path: Path, *, joints: int, names: Sequence[str] | None = No
     return messages[0].read(joints=joints, names=names)
 
 
+def _advice(header: Sequence[str], needed: Sequence[str]) -> str:
+    """What to do where the columns of other tools are found."""
+    if any(";" in name or "\t" in name for name in header):
+        return "; cells are separated by commas, and numbers have a point"
+    if all(PLAIN.fullmatch(name) for name in header):
+        return f"; the first row has to name the columns: {','.join(needed)}"
+    if any(re.fullmatch(r"[qva]\d+_deg.*", name) for name in header):
+        return "; angles are in radians: convert them, and name their columns q1_rad, ..."
+    return ""
+
+
 def _table(text: str, joints: int) -> TrajectorySamples:
     try:
         # One more than is read is as good as all of them.
@@ -113,6 +124,7 @@ def _table(text: str, joints: int) -> TrajectorySamples:
     if missing := [name for name in needed if name not in header]:
         raise TrajectoryError(
             f"column {missing[0]} is missing, the arm has {joints} joints; found {shown(', '.join(header))}"
+            + _advice(header, needed)
         )
     beyond = [
         name for name in header if (m := re.match(r"[qva]([1-9]\d{0,8})_", name, re.ASCII)) and int(m[1]) > joints

@@ -9,6 +9,7 @@ import typer
 
 from elbowroom.cli.failure import UNSAFE, reported
 from elbowroom.cli.options import number_option, whole_option
+from elbowroom.numbered import counted
 
 if TYPE_CHECKING:
     from elbowroom.check import JudgedMessage
@@ -87,7 +88,8 @@ def check_command(
 def _title(file: Path, answer: JudgedMessage) -> str:
     motion = answer.check.motion
     which = f", message {answer.number} of {answer.count}" if answer.count > 1 else ""
-    return f"{file}{which}: {len(motion.starts)} {answer.check.curve} pieces, {motion.duration:.3f} s"
+    pieces = counted(len(motion.starts), f"{answer.check.curve} piece")
+    return f"{file}{which}: {pieces}, {motion.duration:.3f} s"
 
 
 def _document(answer: JudgedMessage) -> dict[str, Any]:

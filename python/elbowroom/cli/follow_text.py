@@ -6,6 +6,7 @@ from elbowroom._core import measured
 from elbowroom.cli.plan_text import verdict_lines
 from elbowroom.follow import Followed
 from elbowroom.follow.files import summary
+from elbowroom.numbered import counted
 
 
 def in_words(followed: Followed) -> str:
@@ -21,17 +22,13 @@ def in_words(followed: Followed) -> str:
     spent = {name: f"{measured(value * 1e3)} ms" for name, value in found["update_s"].items()}
     lines = [
         f"task '{followed.task}': {end}",
-        f"{found['updates']} updates at {followed.rate:g} Hz: {_count(decisions['new'], 'new motion')}, "
-        f"{_count(decisions['stop'], 'time')} braked to rest",
+        f"{counted(found['updates'], 'update')} at {followed.rate:g} Hz: {counted(decisions['new'], 'new motion')}, "
+        f"{counted(decisions['stop'], 'time')} braked to rest",
         f"an update took {spent['median']} (median), {spent['p99']} (p99), {spent['p99.9']} (p99.9)",
     ]
     if late := found["update_s"]["longer_than_a_step"]:
-        lines.append(f"{late} updates took longer than the period")
+        lines.append(f"{counted(late, 'update')} took longer than the period")
     if doubtful := found["updates_not_safe"]:
-        lines.append(f"{doubtful} updates found no motion that is proved safe by what was known")
+        lines.append(f"{counted(doubtful, 'update')} found no motion that is proved safe by what was known")
     lines.append("the executed motion, among the obstacles as they really moved:")
     return "\n".join([*lines, *verdict_lines(followed.check.verdict, followed.true_scene)])
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -25,6 +25,7 @@ from elbowroom.compare.summary import (
 )
 from elbowroom.figures import save
 from elbowroom.figures.compare import Curve, Panel, Shares, convergence, side_by_side
+from elbowroom.numbered import counted
 from elbowroom.objectives import OBJECTIVES
 from elbowroom.whole_files import write_whole
 
@@ -114,8 +115,8 @@ def _head(rows: Sequence[Row], summary: Summary, command: str) -> str:
     lines = [
         "# Planners side by side",
         "",
-        f"{len(rows)} runs: {_count(len(summary.overall), 'planner')}, {_count(len(summary.tasks), 'task')} of "
-        f"{_count(len({row.scene_sha256 for row in rows}), 'scene')}, {_count(seeds, 'seed')}. "
+        f"{len(rows)} runs: {counted(len(summary.overall), 'planner')}, {counted(len(summary.tasks), 'task')} of "
+        f"{counted(len({row.scene_sha256 for row in rows}), 'scene')}, {counted(seeds, 'seed')}. "
         f"Objective: {one.objective}. "
         f"Budget: {'each planner its own' if one.budget is None else f'{one.budget} evaluations'}. "
         f"Timeout: {'none' if one.timeout_s is None else f'{one.timeout_s:g} s'}. By {'; '.join(providers)}.",
@@ -125,10 +126,6 @@ def _head(rows: Sequence[Row], summary: Summary, command: str) -> str:
         "```",
     ]
     return "\n".join(lines)
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def task_table(task: TaskSummary, objective: str) -> str:

@@ -19,7 +19,7 @@ def clearances(followed: Followed) -> dict[str, Floats]:
     for i, obstacle in enumerate(scene.obstacles):
         if obstacle.motion is not None:
             places = shifts(obstacle.motion, samples.t).tolist()
-            found[obstacle.name or f"obstacle {i}"] = np.array(
+            found[obstacle.name or f"obstacle {i + 1}"] = np.array(
                 [
                     scene.replace(obstacles=[shifted(obstacle, (x, y))], tasks={}).link_clearances(q).min()
                     for (x, y), q in zip(places, samples.q[:, np.newaxis], strict=True)

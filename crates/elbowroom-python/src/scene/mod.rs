@@ -1,6 +1,7 @@
 //! A scene and its parts as Python shows them: the core's own values, checked where they are made.
 
 mod arm;
+mod configurations;
 mod grid;
 mod model;
 mod motion;

@@ -2,11 +2,13 @@ use elbowroom::geometry::Point;
 use elbowroom::path::{link_clearances, self_clearance};
 use elbowroom::scene::{self, TwoLinkError, TwoLinkScene};
 use numpy::ndarray::{Array2, Array3};
-use numpy::{AllowTypeChange, IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayLike2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyCFunction, PyDict, PyMapping, PyMappingProxy, PyString, PyTuple};
 
 use super::arm::Arm;
+use super::configurations::configurations;
 use super::grid::Grid;
 use super::obstacle::Obstacle;
 use super::part::{Keywords, NewArgs, Part, each_of_class, keywords_of, made, of_class};
@@ -150,20 +152,36 @@ impl Scene {
 #[pymethods]
 impl Scene {
     #[new]
-    #[pyo3(signature = (*, arm, grid, obstacles=None, tasks=None, units=None))]
+    #[pyo3(
+        signature = (*file, arm=None, grid=None, obstacles=None, tasks=None, units=None),
+        text_signature = "(*, arm, grid, obstacles=None, tasks=None, units=None)"
+    )]
     fn new<'py>(
         py: Python<'py>,
-        arm: &Bound<'py, Arm>,
-        grid: &Bound<'py, Grid>,
+        file: &Bound<'py, PyTuple>,
+        arm: Option<&Bound<'py, Arm>>,
+        grid: Option<&Bound<'py, Grid>>,
         obstacles: Option<&Bound<'py, PyAny>>,
-        tasks: Option<&Bound<'py, PyMapping>>,
+        tasks: Option<&Bound<'py, PyAny>>,
         units: Option<&Bound<'py, Units>>,
     ) -> PyResult<PyClassInitializer<Self>> {
+        let (true, Some(arm), Some(grid)) = (file.is_empty(), arm, grid) else {
+            return Err(PyTypeError::new_err(
+                "a Scene is made of parts by keyword, arm=, grid=, obstacles=, tasks=; Scene.load(path) reads a file",
+            ));
+        };
         let obstacles = obstacles.map(|given| each_of_class::<Obstacle>(given, "obstacles")).transpose()?;
         let obstacles =
             obstacles.iter().flatten().map(|obstacle| obstacle.get().obstacle().clone()).collect();
         let mut named = Vec::new();
         if let Some(tasks) = tasks {
+            let Ok(tasks) = tasks.cast::<PyMapping>() else {
+                let message = format!(
+                    "tasks is of type {}; names and their tasks are needed, such as {{'pick': Task(...)}}",
+                    tasks.get_type().name()?
+                );
+                return Err(PyTypeError::new_err(message));
+            };
             for item in tasks.items()? {
                 let (name, task): (String, Bound<'_, PyAny>) = item.extract()?;
                 let task = of_class::<Task>(task, &format!("tasks['{name}']"))?;
@@ -264,9 +282,9 @@ impl Scene {
     fn link_clearances<'py>(
         &self,
         py: Python<'py>,
-        q: PyArrayLike2<'py, f64, AllowTypeChange>,
+        q: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let configurations = self.configurations(py, &q)?;
+        let configurations = configurations(q, self.scene.arm().links())?;
         let found: Vec<f64> =
             py.detach(|| configurations.iter().flat_map(|q| link_clearances(&self.scene, q)).collect());
         let shape = (configurations.len(), self.scene.arm().links());
@@ -281,9 +299,9 @@ impl Scene {
     fn self_clearances<'py>(
         &self,
         py: Python<'py>,
-        q: PyArrayLike2<'py, f64, AllowTypeChange>,
+        q: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let configurations = self.configurations(py, &q)?;
+        let configurations = configurations(q, self.scene.arm().links())?;
         let found: Vec<f64> =
             py.detach(|| configurations.iter().map(|q| self_clearance(&self.scene, q)).collect());
         Ok(found.into_pyarray(py))
@@ -294,12 +312,8 @@ impl Scene {
     ///
     /// Raises:
     ///     BadSetting: ``q`` has not a column for each joint.
-    fn link_ends<'py>(
-        &self,
-        py: Python<'py>,
-        q: PyArrayLike2<'py, f64, AllowTypeChange>,
-    ) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let configurations = self.configurations(py, &q)?;
+    fn link_ends<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        let configurations = configurations(q, self.scene.arm().links())?;
         let arm = self.scene.arm();
         let ends: Vec<Point> = configurations.iter().flat_map(|q| arm.link_ends(q)).collect();
         let shape = (configurations.len(), arm.links(), 2);
@@ -345,20 +359,7 @@ impl Scene {
     }
 }
 
-impl Scene {
-    fn configurations(
-        &self,
-        py: Python<'_>,
-        q: &PyArrayLike2<'_, f64, AllowTypeChange>,
-    ) -> PyResult<Vec<Vec<f64>>> {
-        let joints = self.scene.arm().links();
-        if q.as_array().ncols() != joints {
-            let message = format!("configurations have {joints} columns, one per joint");
-            return Err(errors::setting(py, "q", &message));
-        }
-        Ok(q.as_array().rows().into_iter().map(|row| row.to_vec()).collect())
-    }
-}
+impl Scene {}
 
 /// Return the scene of these ``keywords`` that was read from ``file``, or made in code if that is ``None``.
 ///

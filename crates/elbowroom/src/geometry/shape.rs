@@ -43,19 +43,19 @@ pub enum ShapeError {
         y: f64,
     },
     /// Fewer than three points, or more than [`MAX_VERTICES`].
-    #[error("{found} vertices, 3 to {MAX_VERTICES} are allowed")]
+    #[error("{found} corners, 3 to {MAX_VERTICES} are allowed")]
     VertexCount {
         /// How many were given.
         found: usize,
     },
     /// A coordinate is infinite or not a number.
-    #[error("vertex {vertex} is not finite")]
+    #[error("corner {} is not finite", vertex + 1)]
     NotFinite {
         /// Its place in the list, from 0.
         vertex: usize,
     },
     /// Two edges have more in common than a shared end.
-    #[error("edge {first} (from vertex {first}) crosses or touches edge {second} (from vertex {second})")]
+    #[error("the edge from corner {} crosses or touches the edge from corner {}", first + 1, second + 1)]
     EdgesMeet {
         /// The first edge, named by the vertex where it begins, from 0.
         first: usize,

@@ -28,7 +28,11 @@ pub enum GridError {
         max: f64,
     },
     /// More points than [`MAX_POINTS`].
-    #[error("{} x {} points are more than the {MAX_POINTS} allowed", in_digits(*columns), in_digits(*rows))]
+    #[error(
+        "{} x {} points are more than the {MAX_POINTS} allowed; make the step larger",
+        in_digits(*columns),
+        in_digits(*rows)
+    )]
     TooManyPoints {
         /// Points along x; a rounded figure where it is huge.
         columns: f64,

@@ -182,7 +182,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "step: 1",
             "step: 1e-9",
-            "s.yaml:10:7: grid: 100000000001 x 80000000001 points are more than the 33554432 allowed",
+            "s.yaml:10:7: grid: 100000000001 x 80000000001 points are more than the 33554432 allowed; make the step larger",
         ),
         (
             "x: [-50, 50]",
@@ -226,6 +226,16 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         ),
         (
             "circle: {center: [22, 22], radius: 5}",
+            "box: {center: [22, 22], size: 5}",
+            "s.yaml:12:5: obstacles[0].box: no such key; known here: circle, segment, polygon, name, motion, greatest_speed, seen, seen_from, sensing_radius; did you mean polygon?",
+        ),
+        (
+            "radius: 5",
+            "radius: 5 mm",
+            "s.yaml:12:40: obstacles[0].circle.radius: found 5 mm; allowed: a number alone, its unit stands under units",
+        ),
+        (
+            "circle: {center: [22, 22], radius: 5}",
             "segment: {from: [1, 2], end: [1, 3]}",
             "s.yaml:12:29: obstacles[0].segment.end: no such key; known here: from, to, radius",
         ),
@@ -237,12 +247,12 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "[[0, 30], [5, 30], [0, 35]]",
             "[[0, 30], [5, 35], [5, 30], [0, 35]]",
-            "s.yaml:14:15: obstacles[1].polygon[0]: edge 0 (from vertex 0) crosses or touches edge 2 (from vertex 2)",
+            "s.yaml:14:15: obstacles[1].polygon[0]: the edge from corner 1 crosses or touches the edge from corner 3",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",
             "[[0, 30], [5, 30]]",
-            "s.yaml:14:14: obstacles[1].polygon: 2 vertices, 3 to 10000 are allowed",
+            "s.yaml:14:14: obstacles[1].polygon: 2 corners, 3 to 10000 are allowed",
         ),
         (
             "  - polygon: [[0, 30], [5, 30], [0, 35]]",
@@ -257,7 +267,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "start: [40, 10]",
             "start: {p: [1, 2]}",
-            "s.yaml:16:19: tasks.first.start.p: no such key; known here: q",
+            "s.yaml:16:18: tasks.first.start: found a mapping; allowed: [x, y], or {q: [q1, q2]}",
         ),
         (
             "posture: keep",
@@ -311,7 +321,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "step: 1",
             "step: 1e-300",
-            "s.yaml:10:7: grid: 1e302 x 8e301 points are more than the 33554432 allowed",
+            "s.yaml:10:7: grid: 1e302 x 8e301 points are more than the 33554432 allowed; make the step larger",
         ),
         ("name: post", "name:", "s.yaml:13:9: obstacles[0].name: found nothing; allowed: a name"),
         ("name: post", "name: ~", "s.yaml:13:11: obstacles[0].name: found nothing; allowed: a name"),
@@ -325,12 +335,12 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "[[0, 30], [5, 30], [0, 35]]",
             "[[0, 30], [5, 30], [0, 35], [0, 30]]",
-            "s.yaml:14:42: obstacles[1].polygon[3]: corner 3 is corner 0 again; all corners differ, and the last is joined to the first",
+            "s.yaml:14:42: obstacles[1].polygon[3]: corner 4 is corner 1 again; all corners differ, and the last is joined to the first",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",
             "[[0, 30], [5, 30], [5, 30], [0, 35]]",
-            "s.yaml:14:33: obstacles[1].polygon[2]: corner 2 is corner 1 again; all corners differ, and the last is joined to the first",
+            "s.yaml:14:33: obstacles[1].polygon[2]: corner 3 is corner 2 again; all corners differ, and the last is joined to the first",
         ),
         (
             "[[0, 30], [5, 30], [0, 35]]",

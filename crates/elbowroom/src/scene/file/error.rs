@@ -165,7 +165,9 @@ pub enum ParseProblem {
     },
     /// Two neighbouring corners of a polygon, the last and the first among them, are one.
     #[error(
-        "corner {second} is corner {first} again; all corners differ, and the last is joined to the first"
+        "corner {} is corner {} again; all corners differ, and the last is joined to the first",
+        second + 1,
+        first + 1
     )]
     CornerTwice {
         /// A corner, from 0.

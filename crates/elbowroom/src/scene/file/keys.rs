@@ -5,7 +5,7 @@ pub(super) struct Keys {
 }
 
 impl Keys {
-    pub(super) fn known(&self) -> impl Iterator<Item = &'static str> + use<> {
+    pub(super) fn known(&self) -> impl Iterator<Item = &'static str> + Clone + use<> {
         self.required.iter().chain(self.optional).copied()
     }
 }

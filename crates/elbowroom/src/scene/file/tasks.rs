@@ -45,7 +45,11 @@ pub(super) fn read(value: &Value<'_>, units: Units, joints: usize) -> Result<Tas
 }
 
 fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault> {
+    let either = format!("[x, y], or {{q: [{}]}}", names(joints));
     if value.is_map() {
+        if value.peek("q").is_none() {
+            return Err(value.shape(either));
+        }
         let map = value.map(&PLACE)?;
         let allowed = format!("[{}], a joint angle each", names(joints));
         let q = map.required("q")?;
@@ -56,7 +60,7 @@ fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault>
         let angles = angles.iter().map(|angle| joint(angle, units)).collect::<Result<Vec<f64>, Fault>>()?;
         return Ok(Place::Configuration(angles.into()));
     }
-    let [x, y] = value.pair(&format!("[x, y], or {{q: [{}]}}", names(joints)))?;
+    let [x, y] = value.pair(&either)?;
     Ok(Place::Tip(crate::geometry::Point::new(x.length(units)?, y.length(units)?)))
 }
 

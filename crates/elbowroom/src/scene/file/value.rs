@@ -145,7 +145,7 @@ impl<'a> Value<'a> {
     pub(super) fn number(&self) -> Result<f64, Fault> {
         let text = match &self.node.kind {
             Kind::Scalar { text, quoted: false } => text,
-            _ => return Err(self.shape("a number")),
+            _ => return Err(self.no_number()),
         };
         let not_finite = || self.fault(ParseProblem::NotFinite { found: self.node.in_words() });
         if matches!(
@@ -159,8 +159,20 @@ impl<'a> Value<'a> {
         match text.parse::<f64>() {
             Ok(number) if plain && number.is_finite() => Ok(number),
             Ok(_) if plain => Err(not_finite()),
-            _ => Err(self.shape("a number")),
+            _ => Err(self.no_number()),
         }
+    }
+
+    /// Neither a number nor, as it is likely to be, one with its unit.
+    fn no_number(&self) -> Fault {
+        let with_unit = match &self.node.kind {
+            Kind::Scalar { text, .. } => {
+                text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+                    && text.ends_with(|c: char| c.is_alphabetic())
+            }
+            _ => false,
+        };
+        self.shape(if with_unit { "a number alone, its unit stands under units" } else { "a number" })
     }
 
     /// A coordinate or length (m).
@@ -196,9 +208,20 @@ fn list(keys: impl Iterator<Item = &'static str>) -> String {
     keys.collect::<Vec<_>>().join(", ")
 }
 
-/// The known key that `key` is a slip of the pen away from.
-fn nearest(key: &str, known: impl Iterator<Item = &'static str>) -> Option<&'static str> {
+/// What people call that by another name.
+const OTHER_WORDS: [(&str, &[&str]); 3] = [
+    ("circle", &["disc", "disk", "round"]),
+    ("polygon", &["rectangle", "rect", "box", "square", "triangle"]),
+    ("segment", &["line", "wall", "capsule"]),
+];
+
+/// The known key that `key` is another word for, or a slip of the pen away from.
+fn nearest(key: &str, known: impl Iterator<Item = &'static str> + Clone) -> Option<&'static str> {
     const SLIP: usize = 2;
+    let meant = OTHER_WORDS.iter().find(|(_, words)| words.contains(&key)).map(|(word, _)| *word);
+    if let Some(word) = known.clone().find(|word| Some(*word) == meant) {
+        return Some(word);
+    }
     known
         .map(|candidate| (edits(key, candidate), candidate))
         .filter(|&(edits, candidate)| edits <= SLIP && edits < candidate.len())
