@@ -103,14 +103,14 @@ def test_pictures_are_in_the_units_of_the_scene_and_name_the_obstacles(pick: er.
         assert {"x (mm)", "y (mm)", "1 post", "2 feeder", "3 tray"} <= set(found)
         whole(figure)
     space_of_joints = figures.configuration_space(pick)
-    assert {"theta 1 (deg)", "theta 2 (deg)", "joint limit", "link 2 in contact", "2 feeder"} <= set(
+    assert {"joint 1 (deg)", "joint 2 (deg)", "joint limit", "link 2 in contact", "2 feeder"} <= set(
         texts(space_of_joints)
     )
     whole(space_of_joints)
     assert "clearance (mm)" in texts(figures.clearance_curve(pick))
     assert "velocity (deg/s)" in texts(figures.joint_curves(pick))
     radians = figures.configuration_space(er.plan(scene.replace(units=er.Units()), task="pick"))
-    assert "theta 1 (rad)" in texts(radians)
+    assert "joint 1 (rad)" in texts(radians)
     draw(pick, tmp_path, animate=False)
     assert figures.save(figures.clearance_curve(pick), str(tmp_path / "text.png")).exists()
 
