@@ -50,7 +50,7 @@ def configurations(scene: er.Scene, tip: tuple[float, float]) -> list[tuple[floa
 def problem(scene: er.Scene, task: str) -> str:
     """Return the task as lines of text: either posture at both ends.
 
-    A continuous joint 1 is unrolled over three turns, with a copy of each goal in each: on OMPL's circle lengths
+    A continuous joint 1 is unrolled over three revolutions, with a copy of each goal in each: on OMPL's circle lengths
     would be sums over the joints, not those of the plane.
     """
     asked = scene.tasks[task]

@@ -81,7 +81,8 @@ class World:
     @classmethod
     def read(cls, text: str) -> World:
         """Read a scene file whose values are plain."""
-        told = yaml.load(text, Loader=LOADER)
+        # A line of blanks says nothing, but this reader minds tabs in it.
+        told = yaml.load(re.sub(r"^[ \t]+$", "", text, flags=re.MULTILINE), Loader=LOADER)
         metres = {"m": 1.0, "cm": 0.01, "mm": 0.001}[told["units"]["length"]]
         radians = {"rad": 1.0, "deg": math.pi / 180.0}[told["units"]["angle"]]
         arm = told["arm"]

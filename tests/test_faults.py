@@ -95,6 +95,7 @@ except BaseException as error:
         (("--duration", "1e10", "--out", "OUT"), "a motion of 1e+10 s does not fit into trajectory.csv"),
         (("--duration", "1e5", "--out", "OUT"), "at most 9999.99 s do"),
         (("--out", ""), "the name of the folder is empty; for the one you are in, write ."),
+        (("--out", __file__), "is a file; a folder is needed"),
         (("--out", " "), "the name of the folder is empty"),
         (("--seed", "1_0"), "'1_0' is not a whole number"),
         (("--seed", "0x10"), "'0x10' is not a whole number"),

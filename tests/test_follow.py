@@ -178,3 +178,11 @@ def test_obstacles_that_stand_still_are_followed_too(standin: er.Scene) -> None:
     empty = follow(standin.replace(obstacles=()), task="first")
     assert empty.outcome == "reached"
     assert clearances(empty) == {}
+
+
+def test_obstacles_are_called_as_the_verdict_calls_them() -> None:
+    followed = follow(er.Scene.example("late"))
+    least = followed.check.verdict.least_clearance
+    assert least is not None
+    assert list(clearances(followed)) == ["obstacle 2 (late)", "obstacle 3 (hidden)", "static obstacles"]
+    assert least.against == "obstacle 3 (hidden)"

@@ -39,6 +39,10 @@ def test_limits_that_are_not_stated_are_said_not_to_be_judged(standin: er.Scene)
     assert "no limits: velocity of joint 2, acceleration (up to" in one[-1]
     every = {"velocity": 3.0, "acceleration": 12.0, "jerk": 90.0}
     whole = said_of(limited(standin, every, every))
+    assert whole[-2] == (
+        "  greatest rates, against their limits: velocity 0.188 of 3 rad/s (joint 1), acceleration 0.577 of 12 rad/s² "
+        "(joint 1), jerk 6.00 of 90 rad/s³ (joint 1)"
+    )
     assert whole[0] == "SAFE: proved for the whole motion"
     assert whole[-1] == "  judged: contact with obstacles, joint limits, velocity, acceleration, jerk"
 

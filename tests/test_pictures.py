@@ -10,12 +10,14 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from numpy.typing import NDArray
 from PIL import Image
 
 import elbowroom as er
-from elbowroom import figures
+from elbowroom import figures, walls
 from elbowroom.cli.plan_pictures import draw
 from elbowroom.figures import maps, style
+from elbowroom.samples import Floats
 from elbowroom.walls import walls_in_words
 from tests.colour_distance import SEEN, distance
 
@@ -101,14 +103,14 @@ def test_pictures_are_in_the_units_of_the_scene_and_name_the_obstacles(pick: er.
         assert {"x (mm)", "y (mm)", "1 post", "2 feeder", "3 tray"} <= set(found)
         whole(figure)
     space_of_joints = figures.configuration_space(pick)
-    assert {"theta 1 (deg)", "theta 2 (deg)", "joint limit", "link 2 in contact", "2 feeder"} <= set(
+    assert {"joint 1 (deg)", "joint 2 (deg)", "joint limit", "link 2 in contact", "2 feeder"} <= set(
         texts(space_of_joints)
     )
     whole(space_of_joints)
     assert "clearance (mm)" in texts(figures.clearance_curve(pick))
     assert "velocity (deg/s)" in texts(figures.joint_curves(pick))
     radians = figures.configuration_space(er.plan(scene.replace(units=er.Units()), task="pick"))
-    assert "theta 1 (rad)" in texts(radians)
+    assert "joint 1 (rad)" in texts(radians)
     draw(pick, tmp_path, animate=False)
     assert figures.save(figures.clearance_curve(pick), str(tmp_path / "text.png")).exists()
 
@@ -142,6 +144,26 @@ def test_a_proof_says_what_is_around_the_start(scenes: Path) -> None:
     figure.draw_without_rendering()
     [axes] = figure.axes
     assert axes.get_window_extent().height > 0.6 * figure.bbox.height
+
+
+def test_naming_walls_asks_each_cell_of_the_points_near_it_alone(scenes: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is done after the timeout: to ask all points of all cells took seconds."""
+    scene = er.Scene.load(scenes / "narrow.yaml")
+    bend = er.Joint(min=-math.pi / 2, max=math.pi / 2)
+    scene = scene.replace(arm=scene.arm.replace(joints=(scene.arm.joints[0], bend)))
+    with pytest.raises(er.NoPath) as caught:
+        er.plan(scene, task="first", planner="optimal")
+    asked = []
+    within = walls._within
+
+    def counted(places: Floats, cell: Floats) -> NDArray[np.bool_]:
+        asked.append(len(places))
+        return within(places, cell)
+
+    monkeypatch.setattr(walls, "_within", counted)
+    assert walls_in_words(scene, caught.value)
+    assert len(asked) > 50
+    assert sum(asked) < 8 * walls.POINTS**2
 
 
 def test_the_last_picture_of_a_motion_stays(pick: er.Plan, tmp_path: Path) -> None:

@@ -120,7 +120,7 @@ def test_nonsense_is_refused(scene: er.Scene) -> None:
         with pytest.raises(er.BadSetting, match=words):
             update(**changes)
     chased = er.Replanner(er.Scene.example("chase"))
-    with pytest.raises(er.BadSetting, match=r"say what is known of obstacle 1 \('hound'\)"):
+    with pytest.raises(er.BadSetting, match=r"known has nothing about 1 \('hound'\)"):
         chased.update(now=0.0, q=chased.start)
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from fuzz import judge, verdicts
 
-CASES = {"trajectories": 250, "scenes": 120}
+CASES = {"trajectories": 150, "scenes": 60}
 
 
 @pytest.mark.parametrize("kind", verdicts.KINDS)
@@ -22,7 +22,7 @@ def test_nothing_called_safe_is_denied(kind: str, tmp_path: Path) -> None:
         assert [found for found in case.findings if not found.startswith("it took")] == [], (number, case.arguments)
         answers[case.answer] += 1
     assert answers["safe" if kind == "trajectories" else "planned"] > CASES[kind] / 10
-    assert answers["not safe, the judge agrees"] > (50 if kind == "trajectories" else -1)
+    assert answers["not safe, the judge agrees"] > (30 if kind == "trajectories" else -1)
 
 
 SCENE = """\

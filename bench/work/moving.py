@@ -97,11 +97,11 @@ def measure() -> Section:
     words = f"""
 First the graph over both postures that plans are made on: one obstacle moves by a cell, the maps are filled again
 only around it and D* is repaired; equal, to the last bit, to maps and cost-to-go from scratch, looked at outside the
-times. Then `Replanner.update` fifty times a second, while {DISCS} discs of 2 cm radius fly about at 5 to 10 cm/s, their
-courses known a minute ahead, and the arm goes to and fro between the ends of the scene's first task. The discs stay
-away from the base by 0.6 of the reach, so that the arm can get out of the way of all of them. A goal counts as reached
-only if the arm can rest there for eight seconds, which is rare among so many discs: the arm mostly waits for a gap, and
-gives way.
+times. Then `Replanner.update` fifty times a second, while {DISCS} discs of 2 cm radius fly about at 5 to 10 cm/s,
+trajectories known a minute ahead, and the arm goes to and fro between the ends of the scene's first task. The discs
+stay away from the base by 0.6 of the reach, so that the arm can get out of the way of all of them. A goal counts as
+reached only if the arm can rest there for eight seconds, which is rare among so many discs: the arm mostly waits for
+a gap, and gives way.
 """
     goals = [repair_goal, update_goal]
     return Section("moving", "Obstacles that move", words.strip(), [first, *others], tables=[hour], goals=goals)

@@ -132,12 +132,13 @@ def measure(say: Callable[[str], None] = lambda _: None) -> Section:
 Cells say in how many runs a safe path came within 1 % of the best known length, in what time (median of those),
 else how much longer the safe paths were (median) and how many paths were not safe by our verifier. Ours is a whole
 plan, from scene to verified trajectory, and the length that of its motion. OMPL's times leave out setting up; its
-planners get both postures at both ends, three turns of a continuous joint with a copy of each goal, and stop as
+planners get both postures at both ends, three revolutions of a continuous joint with a copy of each goal, and stop as
 soon as their path is short enough. RRTConnect is begun again until then, every path simplified. Nobody knows the
 best length beforehand; that OMPL is told when to stop is in its favour. Time limit {LIMIT:g} s in C++ ({SEEDS}
 seeds), {PYTHON_LIMIT:g} s in Python ({PYTHON_SEEDS} seeds), where the checker is plain Python; a run that fails or
 goes far over its limit is counted as stopped. The C++ checker is exact and allocates nothing; with `whole motions`
-it also proves the way between states, by bisection with the clearance. {" ".join(f"**{what}.**" for what in missing)}
+it also proves the motion between states, by bisection with the clearance.
+{" ".join(f"**{what}.**" for what in missing)}
 """
     tables = [
         Table(

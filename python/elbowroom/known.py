@@ -28,10 +28,10 @@ Known = ObstacleMotion | Sighting | None
 def all_known(scene: Scene, known: Mapping[int | str, Known]) -> list[tuple[int, Known]]:
     """Return what is known of each obstacle of ``scene`` that moves, by its index among the obstacles.
 
-    One left out of ``known`` has the course that the scene gives it.
+    One left out of ``known`` has the trajectory that the scene gives it.
 
     Raises:
-        BadSetting: A key is no obstacle that moves, or one is left out whose course the scene does not give.
+        BadSetting: A key is no obstacle that moves, or one is left out whose trajectory the scene does not give.
     """
     names = {obstacle.name: i for i, obstacle in enumerate(scene.obstacles) if obstacle.name is not None}
     movers = {i: obstacle.motion for i, obstacle in enumerate(scene.obstacles) if obstacle.motion is not None}
@@ -53,8 +53,8 @@ def all_known(scene: Scene, known: Mapping[int | str, Known]) -> list[tuple[int,
         if index not in given:
             if motion.chases or motion.seen_from is not None or motion.sensing_radius is not None:
                 raise BadSetting(
-                    f"known: say what is known of obstacle {_called(scene, index)}: the scene does not give its course "
-                    "from the beginning",
+                    f"known has nothing about {_called(scene, index)}, and the scene does not give its trajectory from "
+                    "the beginning: give its ObstacleMotion, a Sighting or None",
                     setting="known",
                 )
             given[index] = motion

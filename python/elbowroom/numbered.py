@@ -1,8 +1,18 @@
-"""Joints and links by their numbers, and how many of something, in words."""
+"""Joints, links and obstacles by their numbers, and how many of something, in words."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+
+
+def called_obstacle(index: int, name: str | None) -> str:
+    """Return what texts call the obstacle at ``index``.
+
+    Example:
+        >>> called_obstacle(0, None), called_obstacle(1, "post")
+        ('obstacle 1', 'obstacle 2 (post)')
+    """
+    return f"obstacle {index + 1}" + ("" if name is None else f" ({name})")
 
 
 def counted(number: int, noun: str) -> str:

@@ -34,7 +34,7 @@ class Update:
         motion: The one that now runs, in the replanner's time; it ends at rest, and after its end the arm stands.
         reaches_goal: Whether it ends at the goal.
         verdict: What the verifier says of what is left of it: until the arm has come to rest and, among obstacles whose
-            course is known, for eight seconds more.
+            trajectory is known, for eight seconds more.
         seconds: How long the update took (s).
     """
 
@@ -131,9 +131,9 @@ class Replanner:
         """Return what the arm is to do now.
 
         Args:
-            known: What is known of the obstacles that move, by name or place among the scene's: a course, a sighting,
-                or None for one that is not there as far as anyone knows. One left out has the course of the scene.
-            now: What time it is (s), of the clock that the courses go by.
+            known: What is known of the obstacles that move, by name or place among the scene's: a trajectory, a
+                sighting, or None for one that is not there as far as anyone knows. One left out has that of the scene.
+            now: What time it is (s), of the clock that the trajectories go by.
             q: Where the joints are (rad).
             v: Their velocities (rad/s); None for an arm at rest.
             a: Their accelerations (rad/s²); None for 0.

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from elbowroom.errors import NoPath
+from elbowroom.numbered import called_obstacle
 from elbowroom.samples import Floats
 from elbowroom.scene import Scene
 
@@ -32,20 +35,17 @@ def walls_in_words(scene: Scene, proof: NoPath) -> str:
     corners = np.vstack([np.array(cell) for cell in proof.reachable])
     low, high = corners.min(axis=0), corners.max(axis=0)
     step = np.maximum((high - low) / POINTS, 1e-6)
-    q1, q2 = np.meshgrid(*(np.linspace(low[j] - 2 * step[j], high[j] + 2 * step[j], POINTS) for j in (0, 1)))
+    axes = [np.linspace(low[j] - 2 * step[j], high[j] + 2 * step[j], POINTS) for j in (0, 1)]
+    q1, q2 = np.meshgrid(*axes)
     places = np.column_stack([q1.ravel(), q2.ravel()])
-    inside: NDArray[np.bool_] = np.zeros(len(places), dtype=bool)
-    for cell in cells:
-        inside |= _within(places, cell)
-    reached = inside.reshape(q1.shape)
+    reached = _covered(axes, cells)
     ring = (_grown(_grown(reached)) & ~reached).ravel()
     lengths = {}
     for i, obstacle in enumerate(scene.obstacles):
         alone = scene.replace(obstacles=[obstacle], tasks={})
         touching = int(np.count_nonzero(alone.link_clearances(places[ring]).min(axis=1) <= 0.0))
         if touching:
-            called = f"obstacle {i + 1}" + ("" if obstacle.name is None else f" ({obstacle.name})")
-            lengths[called] = touching
+            lengths[called_obstacle(i, obstacle.name)] = touching
     named = sorted(lengths, key=lambda called: -lengths[called])
     words = named[:MOST_NAMED]
     if len(named) > MOST_NAMED:
@@ -53,6 +53,19 @@ def walls_in_words(scene: Scene, proof: NoPath) -> str:
     if _limits_are_near(scene, low, high, step):
         words.append("joint limits")
     return ", ".join(words)
+
+
+def _covered(axes: Sequence[Floats], cells: Iterable[Floats]) -> NDArray[np.bool_]:
+    """Which points of a grid lie in one of ``cells``; each is asked of the points near it alone."""
+    covered: NDArray[np.bool_] = np.zeros((len(axes[1]), len(axes[0])), dtype=bool)
+    for cell in cells:
+        columns, rows = (
+            slice(np.searchsorted(axis, cell[:, j].min()), np.searchsorted(axis, cell[:, j].max(), side="right"))
+            for j, axis in enumerate(axes)
+        )
+        near = np.stack(np.meshgrid(axes[0][columns], axes[1][rows]), axis=-1)
+        covered[rows, columns] |= _within(near.reshape(-1, 2), cell).reshape(near.shape[:2])
+    return covered
 
 
 def _within(places: Floats, cell: Floats) -> NDArray[np.bool_]:

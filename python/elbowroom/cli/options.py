@@ -54,4 +54,7 @@ def _folder(given: Any) -> Path:
     # An empty path is the folder one is in, which is what a variable that is not set comes to.
     if not str(given).strip():
         raise typer.BadParameter("the name of the folder is empty; for the one you are in, write .")
+    # An output folder is made if need be, but not where a file is.
+    if Path(given).is_file():
+        raise typer.BadParameter(f"{given} is a file; a folder is needed")
     return Path(given)

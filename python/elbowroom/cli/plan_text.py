@@ -89,10 +89,29 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
             others = "" if len(limited) <= MOST_LIMITED else f", the {len(limited) - 1} others have more"
             margin = units.measured_angle(distance)
             lines.append(f"  joint {joint} is closest to its limit at {time:.3f} s (margin {margin}{others})")
+    if reached := _nearest_to_limits(verdict, scene):
+        lines.append(f"  greatest rates, against their limits: {reached}")
     changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
     return [*lines, f"  judged: {', '.join(judged)}", *(f"  NOT judged, {what}" for what in left_out)]
+
+
+def _nearest_to_limits(verdict: Verdict, scene: Scene) -> str:
+    """Of each rate that has limits, the joint that comes nearest to its own, where none is beyond."""
+    told = []
+    for rate, order in ORDERS.items():
+        shares = [
+            (margin.largest / margin.limit, joint, margin)
+            for joint, margin in enumerate((getattr(of_joint, rate) for of_joint in verdict.motion_margins), 1)
+            if margin.limit is not None
+        ]
+        if shares and max(share for share, *_ in shares) <= 1.0:
+            _, joint, margin = max(shares, key=lambda share: share[0])
+            value = scene.units.measured_angle(margin.largest, order=order)
+            limit = scene.units.stated_angle(margin.limit, order=order)
+            told.append(f"{rate} {value.partition(' ')[0]} of {limit} (joint {joint})")
+    return ", ".join(told)
 
 
 def _judged(verdict: Verdict, scene: Scene) -> tuple[list[str], list[str]]:

@@ -46,7 +46,7 @@ Mask = NDArray[np.bool_]
 
 
 def configuration_space(plan: AnyPlan) -> Figure:
-    """Return theta 1 and theta 2 with the configurations in contact, the joint limits, and the motion through them.
+    """Return both joint angles with the configurations in contact, the joint limits, and the motion through them.
 
     Raises:
         BadSetting: The arm does not have two links.
@@ -83,7 +83,7 @@ def configuration_space(plan: AnyPlan) -> Figure:
 
 
 def joint_plane(scene: Scene, ranges: list[Range]) -> tuple[Figure, Axes]:
-    """Return a figure of theta 1 and theta 2 in the same scale, no larger than ``ranges`` (rad) ask for."""
+    """Return a figure of both joint angles in the same scale, no larger than ``ranges`` (rad) ask for."""
     scale = scene.units.per_radian
     wide, high = ((end - begin) * scale for begin, end in ranges)
     # What the axes get of a figure 7.4 inches wide beside a legend, and what title and labels take.
@@ -91,8 +91,8 @@ def joint_plane(scene: Scene, ranges: list[Range]) -> tuple[Figure, Axes]:
     axes.set_aspect("equal")
     axes.set_xlim(ranges[0][0] * scale, ranges[0][1] * scale)
     axes.set_ylim(ranges[1][0] * scale, ranges[1][1] * scale)
-    axes.set_xlabel(f"theta 1 ({scene.units.angle})")
-    axes.set_ylabel(f"theta 2 ({scene.units.angle})")
+    axes.set_xlabel(f"joint 1 ({scene.units.angle})")
+    axes.set_ylabel(f"joint 2 ({scene.units.angle})")
     return figure, axes
 
 

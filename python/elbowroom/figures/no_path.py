@@ -15,7 +15,7 @@ from elbowroom.walls import reachable_cells, walls_in_words
 
 
 def no_path(scene: Scene, proof: NoPath) -> Figure:
-    """Return theta 1 and theta 2 with what is in contact, all that can be reached from the start, and the goals."""
+    """Return both joint angles with what is in contact, all that can be reached from the start, and the goals."""
     scale = scene.units.per_radian
     ends = [np.array(proof.starts), np.array(proof.goals)]
     shown = np.vstack([*ends, *(np.array(cell) for cell in proof.reachable)])

@@ -6,6 +6,7 @@ import numpy as np
 
 from elbowroom.follow.courses import shifted, shifts
 from elbowroom.follow.followed import Followed
+from elbowroom.numbered import called_obstacle
 from elbowroom.samples import Floats
 
 
@@ -19,7 +20,7 @@ def clearances(followed: Followed) -> dict[str, Floats]:
     for i, obstacle in enumerate(scene.obstacles):
         if obstacle.motion is not None:
             places = shifts(obstacle.motion, samples.t).tolist()
-            found[obstacle.name or f"obstacle {i + 1}"] = np.array(
+            found[called_obstacle(i, obstacle.name)] = np.array(
                 [
                     scene.replace(obstacles=[shifted(obstacle, (x, y))], tasks={}).link_clearances(q).min()
                     for (x, y), q in zip(places, samples.q[:, np.newaxis], strict=True)

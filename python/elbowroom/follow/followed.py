@@ -49,7 +49,7 @@ class Followed:
         deadline: Of an update (s); None if it took as long as it liked.
         steps: Every update, in order of time.
         samples: The arm in short steps from 0 s on; a quintic between two of them is what it did.
-        check: The verifier's answer on these among the obstacles' true courses.
+        check: The verifier's answer on these among the obstacles' true trajectories.
         reached: Whether the arm came to rest at the goal.
         given_up: Whether the timeout came first.
     """

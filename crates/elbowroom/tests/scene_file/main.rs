@@ -169,7 +169,7 @@ fn whatever_is_wrong_is_named_with_its_place_and_what_is_allowed() {
         (
             "{min: -150, max: 150}",
             "{min: -8000, max: 150}",
-            "s.yaml:7:7: arm.joints[1]: -8000 to 150 deg is 22.6 turns, more than 20: is `units.angle` right? A joint without limits is `continuous: true`",
+            "s.yaml:7:7: arm.joints[1]: -8000 to 150 deg is 22.6 revolutions, more than 20: is `units.angle` right? A joint without limits is `continuous: true`",
         ),
         (
             "velocity: 90",

@@ -129,7 +129,7 @@ pub enum ParseProblem {
     },
     /// Limits more than 20 turns apart, in the file's unit.
     #[error(
-        "{min} to {max} {unit} is {turns:.1} turns, more than 20: is `units.angle` right? A joint without limits is `continuous: true`"
+        "{min} to {max} {unit} is {turns:.1} revolutions, more than 20: is `units.angle` right? A joint without limits is `continuous: true`"
     )]
     LimitsTooWide {
         /// Lower limit.
