@@ -33,7 +33,7 @@ TESTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     # tests that stand beside the code in `search`.
     ("verify", "verify/bound", ("bound",)),
     ("verify", "verify/blocked", ("bound",)),
-    ("verify", "verify/", ("verify", "verify_chain", "verify_moving", "verify_dense")),
+    ("verify", "verify/", ("lib:verify", "verify", "verify_chain", "verify_moving", "verify_dense")),
     ("trajectory", "trajectory/peak", ("lib:trajectory", "trajectory", "departure")),
     ("trajectory", "trajectory/b_spline", ("lib:trajectory", "trajectory", "departure")),
     ("trajectory", "trajectory/", ("trajectory", "departure")),

@@ -190,7 +190,7 @@ def test_compare_on_the_command_line(tmp_path: Path) -> None:
         (("SCENE", "--planners", "dstar:speed=2"), "no option 'speed'"),
         (("SCENE", "--seeds", "0"), "--seeds"),
         (("SCENE", "--objective", "fun"), "tip, joint or time"),
-        (("SCENE", "--out", "FILE"), "File exists"),
+        (("SCENE", "--out", "FILE"), "is a file; a folder is needed"),
         (("SCENE", "--out", "FILE/below"), "Not a directory"),
         (("SCENE", "--on", "moon"), "local or ray"),
     ],

@@ -2,8 +2,8 @@
 
 use elbowroom::trajectory::{
     Curve, Interpolated, Motion, MotionError, Piece, Samples, SamplesError, SpeedLimits, State, TICK,
-    durations_by_length, fastest_durations, interpolate, quintic_through, random_vias, rescaled, stretch,
-    vias_at,
+    durations_by_length, fastest_durations, interpolate, quartic, quintic_through, random_vias, rescaled,
+    stretch, vias_at,
 };
 
 /// Seeded uniform numbers in [-1, 1).
@@ -323,5 +323,21 @@ fn lengths_of_a_motion_are_those_of_its_curve() {
         let tip: f64 = tips.windows(2).map(|w| w[0].distance(w[1])).sum();
         assert!((motion.joint_length() - joints).abs() < 1e-5 * joints);
         assert!((motion.tip_length(&arm) - tip).abs() < 1e-5 * tip, "{} {tip}", motion.tip_length(&arm));
+    }
+}
+
+#[test]
+fn a_quartic_begins_and_ends_as_asked_and_tells_its_last_acceleration() {
+    let mut numbers = Numbers(9);
+    for _ in 0..2000 {
+        let start = [3.0, 2.0, 5.0].map(|scale| scale * numbers.next());
+        let end = [3.0, 2.0].map(|scale| scale * numbers.next());
+        let duration = 1.1 + numbers.next();
+        let (terms, last) = quartic(start, end, duration);
+        let piece = Piece { start: 0.0, duration, coefficients: vec![terms] };
+        let of = |state: State| [state.position[0], state.velocity[0], state.acceleration[0]];
+        assert!(near(of(piece.at(0.0)), start, 1e-12) && terms[5] == 0.0);
+        let size = 1e-9 * (1.0 + 1.0 / (duration * duration));
+        assert!(near(of(piece.at(duration)), [end[0], end[1], last], size));
     }
 }

@@ -219,3 +219,79 @@ fn ray_meets_edge(point: [f64; 2], a: Point, b: Point) -> bool {
 fn length([x, y]: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector;
+    use crate::random::unit;
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    fn shape(rng: &mut ChaCha8Rng, kind: usize) -> Shape {
+        let mut place = || Point::new(2.0 * unit(rng) - 1.0, 2.0 * unit(rng) - 1.0);
+        let (a, b) = (place(), place());
+        let corner = |i: usize| a + Vector::polar(0.6, 0.3 + 1.2 * i as f64);
+        match kind {
+            0 => Shape::circle(a, 0.4).unwrap(),
+            1 => Shape::segment(a, b, 0.1).unwrap(),
+            2 => Shape::polygon((0..5).map(corner).collect()).unwrap(),
+            _ => Shape::rounded_polygon((0..5).map(corner).collect(), 0.1).unwrap(),
+        }
+    }
+
+    #[test]
+    fn a_link_still_touches_wherever_it_moves_by_less_than_its_depth() {
+        let mut rng = ChaCha8Rng::seed_from_u64(3);
+        let mut deep = 0;
+        for case in 0..4000 {
+            let shape = shape(&mut rng, case % 4);
+            let body = Body::new(&shape);
+            let width = if case % 3 == 0 { 0.0 } else { 0.05 };
+            let angle = 6.0 * unit(&mut rng);
+            let along = [libm::cos(angle), libm::sin(angle)];
+            let start = [3.0 * unit(&mut rng) - 1.5, 3.0 * unit(&mut rng) - 1.5];
+            let length = 0.2 + unit(&mut rng);
+            let axis = |by: [f64; 2]| Axis { start: [start[0] + by[0], start[1] + by[1]], along, length };
+            let depth = body.depth(&axis([0.0, 0.0]), width);
+            let distance = body.distance(&axis([0.0, 0.0]));
+            if depth <= 0.0 {
+                assert!(distance >= width - 1e-12, "apart by {distance}, and {depth} deep");
+                continue;
+            }
+            deep += 1;
+            let mut comes_out = false;
+            for look in 0..64 {
+                let way = f64::from(look) * std::f64::consts::TAU / 64.0;
+                let moved = |by: f64| body.distance(&axis([by * libm::cos(way), by * libm::sin(way)]));
+                assert!(moved(0.999 * depth) <= width + 1e-9, "{case}: out before {depth}");
+                comes_out |= moved(1.01 * depth + 1e-9) > width;
+            }
+            // What touches from outside the core is exactly so deep.
+            if distance > 1e-9 - shape.radius() {
+                let nearest = width - distance;
+                assert!((depth - nearest).abs() < 1e-9, "{case}: {depth}, {nearest}");
+                assert!(comes_out || shape.vertices().len() > 1, "{case}: {depth} is too little");
+            }
+        }
+        assert!(deep > 500, "{deep}");
+    }
+
+    #[test]
+    fn a_line_between_two_points_is_as_far_away_as_the_shape_of_it() {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        for _ in 0..2000 {
+            let mut place = || Point::new(4.0 * unit(&mut rng) - 2.0, 4.0 * unit(&mut rng) - 2.0);
+            let ends = [place(), place()];
+            let from = place();
+            let line = Body::segment(&ends);
+            let shape = Shape::segment(ends[0], ends[1], 0.0).unwrap();
+            let of_shape = Body::new(&shape);
+            let axis = Axis { start: [from.x, from.y], along: [0.6, 0.8], length: 0.7 };
+            assert_eq!(line.distance(&axis), of_shape.distance(&axis));
+            // The rounding of a body is of all that it comes from.
+            let size = ends.iter().map(|p| p.x.abs().max(p.y.abs())).fold(0.0, f64::max);
+            assert!(line.rounding(1.0) >= ROUNDING * (size + 1.0));
+        }
+    }
+}

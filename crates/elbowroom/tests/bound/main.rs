@@ -222,6 +222,25 @@ fn no_bound_is_above_what_brute_force_finds_and_nothing_is_denied_that_it_finds(
 }
 
 #[test]
+fn the_tip_goes_round_what_the_second_joint_keeps_it_out_of() {
+    // Bent by no more than a right angle the tip stays 0.5 m from the base: half way round that disc, or nearly straight past it.
+    let joints = [Joint::CONTINUOUS, build::joint(build::stops(0.2, PI / 2.0))];
+    let scene = build::scene(build::arm_of(&[0.4, 0.3], 0.0, &joints), vec![]);
+    let at = |angle: f64| build::tip(0.52 * angle.cos(), 0.52 * angle.sin());
+    for turn in [PI, 2.0, 1.0] {
+        let task = build::task("round", at(0.3), at(0.3 + turn), TaskPosture::Any);
+        let plan = plan(&scene, &task, &OptimalPlanner, &PlanSettings::default(), &Unwatched).unwrap();
+        let (radius, distance) = (0.5, 0.52);
+        // Tangents, and the arc between where they touch.
+        let tangent = f64::sqrt(distance * distance - radius * radius);
+        let arc = turn - 2.0 * f64::acos(radius / distance);
+        let least = 2.0 * tangent + radius * arc;
+        let bound = plan.lower_bound().unwrap();
+        assert!(bound <= least + 1e-9 && bound > 0.99 * least, "{turn}: {bound}, {least}");
+    }
+}
+
+#[test]
 #[ignore = "half an hour: make campaign"]
 fn ten_thousand_worlds() {
     let seeds: u64 = std::env::var("WORLDS").map_or(10_000, |text| text.parse().unwrap());
