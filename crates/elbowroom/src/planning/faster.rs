@@ -8,6 +8,9 @@ use crate::arm::{Arm, Joint, JointLimits};
 use crate::optimise::{Refinement, fastest};
 use crate::verify::Trajectory;
 
+/// Arms of more links keep their motion as it is: one program would take seconds, in which nobody could stop it.
+const MOST_LINKS: usize = 12;
+
 /// Of `ranked` motions, the best first, the first; where time is what counts, the one that is the fastest when all are made faster.
 ///
 /// # Errors
@@ -38,7 +41,7 @@ pub(super) fn fastest_of(
 /// [`PlanError::Stopped`]
 fn faster(problem: &Problem<'_>, made: &Made) -> Result<Option<Made>, PlanError> {
     let (scene, motion) = (problem.scene, made.trajectory.motion());
-    if !made.is_ours || motion.duration() == 0.0 {
+    if !made.is_ours || motion.duration() == 0.0 || scene.arm().links() > MOST_LINKS {
         return Ok(None);
     }
     let keep_going = || problem.monitor.keep_going();
