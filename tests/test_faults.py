@@ -241,7 +241,7 @@ def test_what_never_ends_is_read_no_further_than_a_file_may_be_long(
     standin: er.Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("elbowroom.trajectory_files.LARGEST_FILE", 10_000)
-    with pytest.raises(er.TrajectoryError, match="/dev/zero: more than 256 MiB"):
+    with pytest.raises(er.TrajectoryError, match="/dev/zero: more than 1 MiB"):
         er.check_file(standin, "/dev/zero")
 
 
@@ -254,3 +254,11 @@ def test_arrays_of_many_kinds_end_in_errors_of_ours(standin: er.Scene) -> None:
     ):
         with pytest.raises(er.TrajectoryError):
             er.check(standin, t=t, q=q)
+
+
+@pytest.mark.parametrize("name", ["a\0b", "", "\ud800"])
+def test_paths_that_are_none_are_told_of_scenes_and_trajectories(name: str, standin: er.Scene) -> None:
+    with pytest.raises(er.SceneError, match="cannot be read"):
+        er.Scene.load(name)
+    with pytest.raises(er.TrajectoryError, match="cannot be read"):
+        er.check_file(standin, name)

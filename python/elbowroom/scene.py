@@ -12,6 +12,7 @@ from typing import Literal, TypeAlias
 
 from elbowroom._core import Arm, Configuration, Grid, Joint, Obstacle, ObstacleMotion, Scene, Task, Units
 from elbowroom.errors import SceneError
+from elbowroom.text_files import Unreadable, read_text
 
 __all__ = [
     "AngleUnit",
@@ -45,8 +46,8 @@ PostureWish: TypeAlias = Literal["up", "down", "any", "keep"]
 Place: TypeAlias = Pair | Configuration
 """Where a task begins or ends: a place of the tip (m), or a configuration."""
 
-LARGEST_FILE = 4 * 1024 * 1024
-"""Largest scene file that is read (bytes)."""
+LARGEST_FILE = 4
+"""Largest scene file that is read (MiB)."""
 
 
 def text_of(path: str | Path) -> str:
@@ -64,16 +65,9 @@ def text_of(path: str | Path) -> str:
     if Path(path).suffix == ".csv":
         raise refused("this is a table, not a scene; the scene comes first, then the trajectory")
     try:
-        with Path(path).open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise refused(f"cannot be read: {error.strerror or error}") from None
-    if len(content) > LARGEST_FILE:
-        raise refused("more than 4 MiB, which is the most a scene file may have")
-    try:
-        text = content.decode("utf-8")
-    except UnicodeDecodeError as error:
-        raise refused(f"byte {error.start} is not UTF-8") from None
+        text = read_text(Path(path), mebibytes=LARGEST_FILE, kind="scene")
+    except Unreadable as error:
+        raise refused(str(error)) from None
     if "joint_names" in text and "elbowroom" not in text:
         raise refused("this is a trajectory, not a scene; the scene comes first, then the trajectory")
     return text

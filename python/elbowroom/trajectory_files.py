@@ -18,10 +18,11 @@ from elbowroom.documents import documents, shown
 from elbowroom.errors import TrajectoryError
 from elbowroom.joint_trajectory import joint_trajectory
 from elbowroom.plain_numbers import exact, number
+from elbowroom.text_files import Unreadable, read_text
 from elbowroom.trajectory_samples import Floats, TrajectorySamples, since_first
 
-LARGEST_FILE = 256 * 1024 * 1024
-"""Largest trajectory file that is read (bytes)."""
+LARGEST_FILE = 256
+"""Largest trajectory file that is read (MiB)."""
 
 PLAIN = re.compile(r'[0-9+\-.eE,"\s]*', re.ASCII)
 
@@ -41,20 +42,9 @@ def read_messages(path: Path) -> list[Message]:
         TrajectoryError: The file cannot be read; the message leaves out its name.
     """
     try:
-        # Not by its size: what is no file in a folder, such as a pipe, has none.
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise TrajectoryError(f"cannot be read: {error.strerror or error}") from None
-    # A path that has a NUL in it.
-    except ValueError as error:
-        raise TrajectoryError(f"cannot be read: {error}") from None
-    if len(content) > LARGEST_FILE:
-        raise TrajectoryError("more than 256 MiB, which is the most a trajectory file may have")
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TrajectoryError(f"byte {error.start} is not UTF-8") from None
+        text = read_text(path, mebibytes=LARGEST_FILE, kind="trajectory")
+    except Unreadable as error:
+        raise TrajectoryError(str(error)) from None
     if not text.strip():
         raise TrajectoryError("the file is empty")
     if path.suffix.lower() in (".json", ".yaml", ".yml"):
