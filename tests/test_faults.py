@@ -240,7 +240,7 @@ main()
 def test_what_never_ends_is_read_no_further_than_a_file_may_be_long(
     standin: er.Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("elbowroom.trajectory_files.LARGEST_FILE", 10_000)
+    monkeypatch.setattr("elbowroom.trajectory_files.LARGEST_FILE", 1)
     with pytest.raises(er.TrajectoryError, match="/dev/zero: more than 1 MiB"):
         er.check_file(standin, "/dev/zero")
 
