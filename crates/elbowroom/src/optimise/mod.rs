@@ -4,15 +4,15 @@
 //! differences of control points. Clearances and the powers of the step are linearised about the last iterate: each step of the
 //! search is a linear program over control points and step (sequential convex programming), solved by an interior-point method.
 //! From the control points the least step that keeps all limits follows in closed form, so that every iterate keeps them exactly;
-//! contact is left to the verifier, whose complaints become places that are looked at from then on.
+//! contact is left to the verifier, whose complaints become places that are sampled from then on.
 //!
 //! # Reference
 //! Sequential convex programming with signed distances: Schulman et al., *Motion planning with sequential convex optimization and
 //! convex collision checking*, IJRR 2014. B-splines for jerk-limited motions: De Boor, *A practical guide to splines*.
 
-mod approach;
-mod control;
+mod control_points;
 mod program;
 mod refine;
+mod signed_distance;
 
-pub(crate) use refine::{Refinement, fastest};
+pub(crate) use refine::{Constraints, fastest};

@@ -3,26 +3,26 @@
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
-use super::approach::Approach;
-use super::control::{Control, binomial, weights};
+use super::control_points::{ControlPoints, binomial, weights};
+use super::signed_distance::SignedDistance;
 use crate::trajectory::SpeedLimits;
 
-/// A place on the spline that is looked at, and all that is near there.
-pub(super) struct Look {
+/// A place on the spline that is sampled, and all that is near there.
+pub(super) struct Sample {
     pub(super) piece: usize,
     pub(super) share: f64,
-    pub(super) approaches: Vec<Approach>,
+    pub(super) signed_distances: Vec<SignedDistance>,
 }
 
 /// What a step is taken from, and how far it may go.
 pub(super) struct Program<'a> {
-    pub(super) control: &'a Control,
+    pub(super) control: &'a ControlPoints,
     /// Time between knots (s) about which its powers are linearised.
     pub(super) step: f64,
     pub(super) limits: &'a [SpeedLimits],
     /// Where each joint may be (rad).
     pub(super) ranges: &'a [[f64; 2]],
-    pub(super) looks: &'a [Look],
+    pub(super) samples: &'a [Sample],
     /// Clearance to keep (m), and what counts as a length of 1 (m).
     pub(super) margin: f64,
     pub(super) reach: f64,
@@ -54,7 +54,7 @@ impl Rows {
 
 impl Program<'_> {
     /// The control points it leads to; `None` where the solver finds none.
-    pub(super) fn solved(&self) -> Option<Control> {
+    pub(super) fn solved(&self) -> Option<ControlPoints> {
         let (control, joints) = (self.control, self.control.joints());
         let free = control.free();
         let unknowns = free.len() * joints;
@@ -118,23 +118,23 @@ impl Program<'_> {
 
     /// Clearances, linear in the joints, against the margin less the slack.
     fn add_clearances(&self, rows: &mut Rows, unknown: &dyn Fn(usize, usize) -> Option<usize>, slack: usize) {
-        for look in self.looks {
-            let weights = weights(look.share);
-            for approach in &look.approaches {
+        for sample in self.samples {
+            let weights = weights(sample.share);
+            for it in &sample.signed_distances {
                 let mut terms = vec![(slack, -1.0)];
                 let mut here = 0.0;
                 for (k, weight) in weights.iter().enumerate() {
-                    for (j, slope) in approach.gradient.iter().enumerate() {
+                    for (j, slope) in it.gradient.iter().enumerate() {
                         let value = weight * slope / self.reach;
-                        if let Some(x) = unknown(look.piece + k, j)
+                        if let Some(x) = unknown(sample.piece + k, j)
                             && value != 0.0
                         {
                             terms.push((x, -value));
-                            here += value * self.control.point(look.piece + k)[j];
+                            here += value * self.control.point(sample.piece + k)[j];
                         }
                     }
                 }
-                rows.push(terms, (approach.clearance - self.margin) / self.reach - here);
+                rows.push(terms, (it.distance - self.margin) / self.reach - here);
             }
         }
     }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::made::{Made, followed, mismatched};
 use super::{Objective, Pace, PlanError, Problem};
 use crate::arm::{Arm, Joint, JointLimits};
-use crate::optimise::{Refinement, fastest};
+use crate::optimise::{Constraints, fastest};
 use crate::verify::Trajectory;
 
 /// Arms of more links keep their motion as it is: one program would take seconds, in which nobody could stop it.
@@ -47,8 +47,9 @@ fn faster(problem: &Problem<'_>, made: &Made) -> Result<Option<Made>, PlanError>
     let keep_going = || problem.monitor.keep_going();
     let start = motion.at(motion.start()).position;
     let ranges = ranges(scene.arm(), problem.endpoints.keep_posture, &start);
-    let refinement = Refinement { scene, limits: &problem.limits, ranges: &ranges, keep_going: &keep_going };
-    let found = fastest(&refinement, motion);
+    let constraints =
+        Constraints { scene, limits: &problem.limits, ranges: &ranges, keep_going: &keep_going };
+    let found = fastest(&constraints, motion);
     problem.go_on()?;
     let is_faster = |found: &Trajectory| {
         found.motion().duration() < motion.duration() && mismatched(problem, found).is_none()

@@ -5,13 +5,13 @@ const STEP_ROUNDING: f64 = 1e-9;
 
 /// Control points of a uniform cubic B-spline that begins and ends at rest: the first three are one, and the last three.
 #[derive(Clone)]
-pub(super) struct Control {
+pub(super) struct ControlPoints {
     joints: usize,
     /// One after the other (rad).
     points: Vec<f64>,
 }
 
-impl Control {
+impl ControlPoints {
     /// Along `motion`, of so many pieces.
     pub(super) fn of(motion: &Motion, pieces: usize) -> Self {
         let (start, duration) = (motion.start(), motion.duration());

@@ -7,9 +7,9 @@ use crate::scene::Scene;
 const TOUCH: f64 = 1e-9;
 
 /// One link near one obstacle, or near another link.
-pub(super) struct Approach {
-    /// Clearance (m), minus the depth where they meet.
-    pub(super) clearance: f64,
+pub(super) struct SignedDistance {
+    /// Between their surfaces (m), minus the depth where they meet.
+    pub(super) distance: f64,
     /// How it changes with each joint (m/rad).
     pub(super) gradient: Vec<f64>,
 }
@@ -24,7 +24,7 @@ struct Nearest {
 }
 
 /// All that the arm of `scene` is nearer to than `near` (m) at `q` (rad).
-pub(super) fn approaches(scene: &Scene, q: &[f64], near: f64) -> Vec<Approach> {
+pub(super) fn signed_distances(scene: &Scene, q: &[f64], near: f64) -> Vec<SignedDistance> {
     let arm = scene.arm();
     let links: Vec<Segment> = arm.link_segments(q).collect();
     let mut found = Vec::new();
@@ -40,7 +40,7 @@ pub(super) fn approaches(scene: &Scene, q: &[f64], near: f64) -> Vec<Approach> {
             if nearest.distance - needed <= near {
                 let mut gradient = vec![0.0; links.len()];
                 add(&mut gradient, &links[..=i], nearest.point, nearest.away);
-                found.push(Approach { clearance: nearest.distance - needed, gradient });
+                found.push(SignedDistance { distance: nearest.distance - needed, gradient });
             }
         }
     }
@@ -48,14 +48,18 @@ pub(super) fn approaches(scene: &Scene, q: &[f64], near: f64) -> Vec<Approach> {
         let needed = 2.0 * arm.half_width();
         for i in 0..links.len() {
             for k in i + 2..links.len() {
-                let Some((distance, on_i, on_k)) = between(links[i], links[k]) else { continue };
-                if distance - needed <= near {
+                let (distance, on_i, on_k) = between(links[i], links[k]);
+                if distance - needed > near {
+                    continue;
+                }
+                let mut gradient = vec![0.0; links.len()];
+                // No direction tells links apart that cross: a step that makes them do so is only as bad as it is.
+                if distance > TOUCH {
                     let away = (on_k - on_i) * (1.0 / distance);
-                    let mut gradient = vec![0.0; links.len()];
                     add(&mut gradient, &links[..=k], on_k, away);
                     add(&mut gradient, &links[..=i], on_i, -away);
-                    found.push(Approach { clearance: distance - needed, gradient });
                 }
+                found.push(SignedDistance { distance: distance - needed, gradient });
             }
         }
     }
@@ -70,13 +74,13 @@ fn add(gradient: &mut [f64], links: &[Segment], point: Point, along: Vector) {
     }
 }
 
-/// Nearest points of two links; `None` where they meet, which no direction tells apart.
-fn between(a: Segment, b: Segment) -> Option<(f64, Point, Point)> {
+/// Nearest points of two links; 0 apart where they meet.
+fn between(a: Segment, b: Segment) -> (f64, Point, Point) {
     let pairs = [(a.a, b.nearest(a.a)), (a.b, b.nearest(a.b)), (a.nearest(b.a), b.a), (a.nearest(b.b), b.b)];
     let apart = |(p, q): &(Point, Point)| p.distance(*q);
-    let (p, q) = pairs.into_iter().min_by(|one, other| apart(one).total_cmp(&apart(other)))?;
-    let distance = p.distance(q);
-    (distance > TOUCH && !a.meets(b)).then_some((distance, p, q))
+    let nearest =
+        pairs.iter().fold(pairs[0], |best, pair| if apart(pair) < apart(&best) { *pair } else { best });
+    (if a.meets(b) { 0.0 } else { apart(&nearest) }, nearest.0, nearest.1)
 }
 
 /// Of the core of `shape` and a link's centre line.
@@ -174,9 +178,11 @@ mod tests {
             let scene = world(&mut rng);
             let q: Vec<f64> = (0..scene.arm().links()).map(|_| 6.0 * unit(&mut rng) - 3.0).collect();
             let found =
-                approaches(&scene, &q, 10.0).iter().map(|it| it.clearance).fold(f64::INFINITY, f64::min);
+                signed_distances(&scene, &q, 10.0).iter().map(|it| it.distance).fold(f64::INFINITY, f64::min);
             let links = link_clearances(&scene, &q).into_iter().fold(f64::INFINITY, f64::min);
             let least = links.min(self_clearance(&scene, &q));
+            // What meets is in contact, links that cross too.
+            assert!((least > 0.0) == (found > 0.0) || least.abs() < 1e-9, "{found} {least}");
             if least > 0.0 {
                 apart += 1;
                 assert!((found - least).abs() < 1e-9, "{found} {least}");
@@ -193,20 +199,20 @@ mod tests {
             let scene = world(&mut rng);
             let links = scene.arm().links();
             let q: Vec<f64> = (0..links).map(|_| 6.0 * unit(&mut rng) - 3.0).collect();
-            let here = approaches(&scene, &q, 10.0);
+            let here = signed_distances(&scene, &q, 10.0);
             for j in 0..links {
                 let moved = |by: f64| {
                     let mut q = q.clone();
                     q[j] += by;
-                    approaches(&scene, &q, 10.0)
+                    signed_distances(&scene, &q, 10.0)
                 };
                 let (before, after) = (moved(-1e-6), moved(1e-6));
                 if before.len() != here.len() || after.len() != here.len() {
                     continue;
                 }
                 for (i, it) in here.iter().enumerate() {
-                    let slope = (after[i].clearance - before[i].clearance) / 2e-6;
-                    *(if it.clearance > 0.0 { &mut apart } else { &mut deep }) += 1;
+                    let slope = (after[i].distance - before[i].distance) / 2e-6;
+                    *(if it.distance > 0.0 { &mut apart } else { &mut deep }) += 1;
                     off += usize::from((slope - it.gradient[j]).abs() > 1e-4);
                 }
             }
