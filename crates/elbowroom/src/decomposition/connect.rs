@@ -331,6 +331,26 @@ mod tests {
     }
 
     #[test]
+    fn cells_are_given_up_wherever_they_are_told_to_stop() {
+        // Slabs enough for several questions at every step.
+        let slab = |i: usize| Slab { x: [i as f64, i as f64 + 1.0], barriers: Vec::new() };
+        let stretch = || vec![Stretch { slabs: (0..10_000).map(slab).collect(), round: false }];
+        let asked = std::cell::Cell::new(0);
+        let most = std::cell::Cell::new(usize::MAX);
+        let keep_going = || asked.replace(asked.get() + 1) < most.get();
+        assert!(connect(stretch(), [0.0, 1.0], false, &keep_going).is_some());
+        let all = asked.replace(0);
+        // Three times in each of the seven passes over the cells; the first slab has none before it to be joined to.
+        assert_eq!(all, 20);
+        for stop in 0..all {
+            most.set(stop);
+            asked.set(0);
+            assert!(connect(stretch(), [0.0, 1.0], false, &keep_going).is_none(), "{stop}");
+            assert_eq!(asked.get(), stop + 1, "asked again after no");
+        }
+    }
+
+    #[test]
     fn shortest_paths_among_trapezoids_agree_with_a_visibility_graph() {
         let mut found = 0;
         for seed in 0..1000 {

@@ -7,9 +7,8 @@ use crate::verify::{Trajectory, VerifySettings, Violation};
 
 /// How to search for the fastest motion. Lengths are shares of the reach.
 struct Settings {
-    /// Pieces of constant jerk: of arms of few joints, and of many, whose programs are large.
-    pieces: [usize; 2],
-    few: usize,
+    /// Pieces of constant jerk.
+    pieces: usize,
     /// Where every piece is sampled, as shares of it.
     shares: [f64; 3],
     /// Clearance that is kept at the places sampled, and by how much it grows with every search.
@@ -33,8 +32,7 @@ struct Settings {
 }
 
 const SETTINGS: Settings = Settings {
-    pieces: [48, 32],
-    few: 5,
+    pieces: 32,
     shares: [0.0, 1.0 / 3.0, 2.0 / 3.0],
     margin: 3e-4,
     margin_growth: 1.6,
@@ -60,17 +58,14 @@ pub(crate) struct Constraints<'a> {
 /// The fastest motion that is found near `motion`, from its start to its end, at rest at both, proved to be safe; `None` where that
 /// is not found, or `keep_going` said no.
 pub(crate) fn fastest(constraints: &Constraints<'_>, motion: &Motion) -> Option<Trajectory> {
-    let arm = constraints.scene.arm();
-    let [_, reach] = arm.reach();
-    let pieces = SETTINGS.pieces[usize::from(arm.links() > SETTINGS.few)];
+    let [_, reach] = constraints.scene.arm().reach();
     let mut search = Search {
         constraints,
         reach,
-        pieces,
-        places: (0..pieces).flat_map(|piece| SETTINGS.shares.map(|share| (piece, share))).collect(),
+        places: (0..SETTINGS.pieces).flat_map(|piece| SETTINGS.shares.map(|share| (piece, share))).collect(),
         margin: SETTINGS.margin * reach,
     };
-    let mut control = ControlPoints::of(motion, pieces);
+    let mut control = ControlPoints::of(motion, SETTINGS.pieces);
     for _ in 0..SETTINGS.rounds {
         control = search.improved(control)?;
         let step = control.least_step(constraints.limits);
@@ -101,7 +96,6 @@ pub(crate) fn fastest(constraints: &Constraints<'_>, motion: &Motion) -> Option<
 struct Search<'a> {
     constraints: &'a Constraints<'a>,
     reach: f64,
-    pieces: usize,
     /// Pieces, and shares of them, that are sampled.
     places: Vec<(usize, f64)>,
     margin: f64,
@@ -179,7 +173,7 @@ impl Search<'_> {
     fn sample_at(&mut self, times: &[f64], step: f64) {
         for time in times {
             for nearby in [-1.0 / 6.0, 0.0, 1.0 / 6.0] {
-                let at = (time / step + nearby).clamp(0.0, self.pieces as f64 - 1e-9);
+                let at = (time / step + nearby).clamp(0.0, SETTINGS.pieces as f64 - 1e-9);
                 let place = (at as usize, at.fract());
                 if !self.places.contains(&place) {
                     self.places.push(place);
