@@ -35,7 +35,7 @@ const SETTINGS: Settings = Settings {
     pieces: 32,
     shares: [0.0, 1.0 / 3.0, 2.0 / 3.0],
     margin: 3e-4,
-    margin_growth: 1.6,
+    margin_growth: 2.0,
     near: 0.1,
     trust: [0.3, 1.0, 1e-4],
     grow: 1.5,
@@ -43,7 +43,7 @@ const SETTINGS: Settings = Settings {
     penalty: 50.0,
     gain: 3e-4,
     steps: 25,
-    rounds: 6,
+    rounds: 8,
 };
 
 /// What the fastest motion has to keep to.
