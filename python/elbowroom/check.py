@@ -263,7 +263,7 @@ def _found(scene: Scene, path: str | Path, joints: Sequence[str] | None) -> list
                 f"joints names '{twice}' twice; each joint of the arm has one of its own", setting="joints"
             )
         if len(joints) != len(scene.arm.joints):
-            message = f"joints names {len(joints)}; the arm has {len(scene.arm.joints)}"
+            message = f"joints names {len(joints)}; the arm has {len(scene.arm.joints)} joints"
             raise BadSetting(message, setting="joints")
     try:
         return read_messages(Path(path))

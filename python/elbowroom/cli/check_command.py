@@ -50,14 +50,10 @@ def check_command(
         from elbowroom.cli.length import metres
         from elbowroom.cli.plan_text import verdict_lines
         from elbowroom.cli.start import start_of
-        from elbowroom.errors import BadSetting
         from elbowroom.scene import Scene
 
         names = joints.split(",") if joints is not None else None
         loaded = Scene.load(scene)
-        number = len(loaded.arm.joints)
-        if names is not None and len(names) != number:
-            raise BadSetting(f"--joints names {len(names)}; the arm of {scene} has {number} joints", setting="joints")
         answers = check_messages(
             loaded,
             file,
