@@ -13,7 +13,7 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 import elbowroom as er
-from elbowroom.cli.main import app
+from elbowroom._cli.main import app
 
 CELL = """\
 elbowroom: 1

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import elbowroom as er
-from elbowroom.plan import Objective
+from elbowroom._plan import Objective
 
 OBJECTIVES: tuple[tuple[Objective, str, float], ...] = (("tip", "cm", 100.0), ("joint", "rad", 1.0), ("time", "s", 1.0))
 

@@ -20,7 +20,7 @@ import numpy as np
 import elbowroom as er
 from bench.clock import ROOT
 from bench.machine import machine
-from elbowroom.own_planners import OWN
+from elbowroom._own_planners import OWN
 
 KINDS = ("vertices", "circles", "ranges", "links", "grid")
 LIMIT = 0.2

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from elbowroom.compare import Row, compare
-from elbowroom.compare.generate import write_scenes
-from elbowroom.compare.report import overall_figure, overall_table, task_table
-from elbowroom.compare.summary import Summary, summarised
+from elbowroom.compare._generate import write_scenes
+from elbowroom.compare._report import overall_figure, overall_table, task_table
+from elbowroom.compare._summary import Summary, summarised
 from elbowroom.figures import save
 from elbowroom.planners import all_chosen
 

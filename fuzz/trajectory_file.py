@@ -8,8 +8,8 @@ from pathlib import Path
 import atheris
 
 with atheris.instrument_imports():
-    from elbowroom.errors import TrajectoryError
-    from elbowroom.trajectory_files import read_messages
+    from elbowroom._errors import TrajectoryError
+    from elbowroom._trajectory_files import read_messages
 
 FOLDER = Path(tempfile.mkdtemp())
 

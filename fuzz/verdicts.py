@@ -28,8 +28,8 @@ from typer.testing import CliRunner
 from yaml import YAMLError
 
 import elbowroom as er
-from elbowroom.cli.main import app
-from elbowroom.scene import example_text
+from elbowroom._cli.main import app
+from elbowroom._scene import example_text
 from fuzz import damage, judge
 
 SCENES = (

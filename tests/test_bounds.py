@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import elbowroom as er
-from elbowroom.plan_files import as_json
+from elbowroom._plan_files import as_json
 
 BEST_KNOWN = {
     ("paper-standin", "first"): 3.1415,
@@ -58,7 +58,7 @@ def test_no_path_is_proved_and_drawn(tmp_path: Path, planner: str) -> None:
     command = [
         sys.executable,
         "-c",
-        "from elbowroom.cli import main; main()",
+        "from elbowroom._cli import main; main()",
         "plan",
         str(path),
         "--task",

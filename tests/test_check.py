@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.plan_files import as_csv, write_plan
+from elbowroom._plan_files import as_csv, write_plan
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from elbowroom.cli.main import app
+from elbowroom._cli.main import app
 
 CELL = """\
 elbowroom: 1

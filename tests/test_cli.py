@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from elbowroom.own_planners import OWN
+from elbowroom._own_planners import OWN
 
 
 def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
@@ -94,7 +94,7 @@ def test_check_says_what_is_wrong_and_exits_with_4(scenes: Path, tmp_path: Path)
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--objective", "fun"), 2, "tip, joint, time"),
         (("plan", "SCENES/paper-standin.yaml", "--task", "first", "--animate"), 2, "needs --out"),
         (("check", "SCENES/paper-standin.yaml", "missing.csv"), 2, "missing.csv: cannot be read"),
-        (("check", "SCENES/paper-standin.yaml", "missing.csv", "--joints", "a"), 2, "names 1; the arm of"),
+        (("check", "SCENES/paper-standin.yaml", "missing.csv", "--joints", "a"), 2, "names 1; the arm has"),
     ],
 )
 def test_failures_are_short_and_have_their_exit_code(

@@ -18,14 +18,14 @@ import pytest
 
 import elbowroom as er
 from elbowroom._core import ASSUMED_LIMITS, interpolated, mismatch
+from elbowroom._own_planners import OWN
 from elbowroom.compare import Row, Table, compare, straight_turns
-from elbowroom.compare.local import run_locally
-from elbowroom.compare.measure import Lengths, lengths
-from elbowroom.compare.row import Problem
-from elbowroom.compare.run import run
-from elbowroom.compare.table import DamagedTable, parquet_is_there, write_parquet
-from elbowroom.compare.worker import Batch
-from elbowroom.own_planners import OWN
+from elbowroom.compare._local import run_locally
+from elbowroom.compare._measure import Lengths, lengths
+from elbowroom.compare._row import Problem
+from elbowroom.compare._run import run
+from elbowroom.compare._table import DamagedTable, parquet_is_there, write_parquet
+from elbowroom.compare._worker import Batch
 from elbowroom.planners import Choice, all_chosen, chosen
 
 TESTS = Path(__file__).parent
@@ -155,7 +155,13 @@ def test_rows_are_the_same_in_any_number_of_processes_and_after_a_stop(scenes: P
 
 
 def test_a_kill_loses_no_finished_row(scenes: Path, tmp_path: Path) -> None:
-    command = [sys.executable, "-c", "from elbowroom.cli import main; main()", "compare", scenes / "paper-standin.yaml"]
+    command = [
+        sys.executable,
+        "-c",
+        "from elbowroom._cli import main; main()",
+        "compare",
+        scenes / "paper-standin.yaml",
+    ]
     command += ["--planners", "dstar-pso", "--seeds", "400", "--out", tmp_path]
     table = tmp_path / "rows.jsonl"
     running = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

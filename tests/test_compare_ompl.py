@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.compare.row import Problem, Row
-from elbowroom.compare.run import run
+from elbowroom.compare._row import Problem, Row
+from elbowroom.compare._run import run
 from elbowroom.planners import chosen
 
 pytest.importorskip("ompl")
 
-from elbowroom.compare.ompl_planner import configurations, plan
+from elbowroom.compare._ompl_planner import configurations, plan
 
 
 def row(scene: Path, text: str = "ompl", *, task: str = "first", seed: int = 0, timeout: float = 20.0) -> Row:

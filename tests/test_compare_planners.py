@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 
 import elbowroom as er
+from elbowroom._own_planners import OWN
 from elbowroom.compare import Row, compare
-from elbowroom.compare.report import write_report
-from elbowroom.compare.row import Problem
-from elbowroom.compare.run import run
-from elbowroom.compare.worker import Batch
-from elbowroom.own_planners import OWN
+from elbowroom.compare._report import write_report
+from elbowroom.compare._row import Problem
+from elbowroom.compare._run import run
+from elbowroom.compare._worker import Batch
 from elbowroom.planners import Choice, all_chosen, chosen, known
 
 TESTS = Path(__file__).parent
@@ -308,11 +308,11 @@ def test_a_planner_that_goes_on_is_ended(scenes: Path, tmp_path: Path) -> None:
     script = tmp_path / "ended.py"
     script.write_text(
         "import pickle, sys\n"
-        "from elbowroom.compare import local, worker\n"
-        "worker.GRACE = 0.5\n"
+        "from elbowroom.compare import _local, _worker\n"
+        "_worker.GRACE = 0.5\n"
         "if __name__ == '__main__':\n"
         "    batch = pickle.load(open(sys.argv[1], 'rb'))\n"
-        "    rows = list(local.run_locally([batch], jobs=1))\n"
+        "    rows = list(_local.run_locally([batch], jobs=1))\n"
         "    pickle.dump(rows, open(sys.argv[2], 'wb'))\n"
     )
     import pickle

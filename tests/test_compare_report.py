@@ -14,20 +14,20 @@ from msgspec.structs import fields
 from typer.testing import CliRunner
 
 import elbowroom as er
-from elbowroom.cli.compare_command import _serving
-from elbowroom.cli.main import app
+from elbowroom._cli.compare_command import _serving
+from elbowroom._cli.main import app
+from elbowroom._own_planners import OWN
 from elbowroom.compare import Row
-from elbowroom.compare.generate import generated, write_scenes
-from elbowroom.compare.report import write_report
-from elbowroom.compare.row import FAILURES
-from elbowroom.compare.summary import summarised
-from elbowroom.own_planners import OWN
+from elbowroom.compare._generate import generated, write_scenes
+from elbowroom.compare._report import write_report
+from elbowroom.compare._row import FAILURES
+from elbowroom.compare._summary import summarised
 
 TESTS = Path(__file__).parent
 
 
 def shell(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-c", "from elbowroom.cli import main; main()", *map(str, arguments)]
+    command = [sys.executable, "-c", "from elbowroom._cli import main; main()", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 
@@ -213,7 +213,7 @@ def test_bad_input_is_one_message(scenes: Path, tmp_path: Path, arguments: tuple
 
 
 def test_figures_take_anything(standin: er.Scene) -> None:
-    from elbowroom.figures.compare import Panel, Shares, convergence, side_by_side
+    from elbowroom.figures._compare import Panel, Shares, convergence, side_by_side
 
     panels = [Panel("empty", [[], []], logarithmic=True), Panel("one", [[1.0], []]), Shares("s", [(0.5, 0.1, 0.9)] * 2)]
     side_by_side("none", ["x", "y"], panels).canvas.draw()
@@ -223,7 +223,7 @@ def test_figures_take_anything(standin: er.Scene) -> None:
 
 
 def test_the_library_is_not_needed_for_help() -> None:
-    code = "import sys, elbowroom.cli.main as m; sys.exit(any(n.startswith('elbowroom.compare') for n in sys.modules))"
+    code = "import sys, elbowroom._cli.main as m; sys.exit(any(n.startswith('elbowroom.compare') for n in sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], timeout=60).returncode == 0
 
 

@@ -7,8 +7,8 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from elbowroom.compare import statistics
-from elbowroom.compare.statistics import (
+from elbowroom.compare import _statistics as statistics
+from elbowroom.compare._statistics import (
     a12,
     cliffs_delta,
     holm,

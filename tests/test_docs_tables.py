@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from bench import bounds, moving, objectives, table2
-from elbowroom.compare.report import task_table
-from elbowroom.compare.summary import summarised
-from elbowroom.own_planners import OWN
+from elbowroom._own_planners import OWN
+from elbowroom.compare._report import task_table
+from elbowroom.compare._summary import summarised
 from elbowroom.planners import all_chosen
 
 ROOT = Path(__file__).parent.parent

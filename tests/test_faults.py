@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.cli.failure import FAULT, reported
-from elbowroom.cli.main import app
-from elbowroom.whole_files import write_whole, written_whole
+from elbowroom._cli.failure import FAULT, reported
+from elbowroom._cli.main import app
+from elbowroom._whole_files import write_whole, written_whole
 
 COMMAND = [sys.executable, "-c", "from elbowroom_command import main; main()"]
 
@@ -26,13 +26,13 @@ def run(*arguments: str | Path, **options: object) -> subprocess.CompletedProces
 
 
 COMMANDS = {
-    "plan": ("elbowroom.plan", "plan", ["plan", "SCENE", "--task", "first"]),
-    "check": ("elbowroom.check", "check_messages", ["check", "SCENE", "SCENE"]),
-    "map": ("elbowroom.free_space", "free_space", ["map", "SCENE"]),
+    "plan": ("elbowroom._plan", "plan", ["plan", "SCENE", "--task", "first"]),
+    "check": ("elbowroom._check", "check_messages", ["check", "SCENE", "SCENE"]),
+    "map": ("elbowroom._free_space", "free_space", ["map", "SCENE"]),
     "follow": ("elbowroom.follow", "follow", ["follow", "SCENE"]),
-    "paper": ("elbowroom.paper", "reproduce", ["paper"]),
+    "paper": ("elbowroom._paper", "reproduce", ["paper"]),
     "compare": ("elbowroom.compare", "compare", ["compare", "SCENE"]),
-    "generate": ("elbowroom.compare.generate", "write_scenes", ["generate", "--out", "OUT"]),
+    "generate": ("elbowroom.compare._generate", "write_scenes", ["generate", "--out", "OUT"]),
 }
 
 
@@ -48,14 +48,14 @@ def broken(*_, **__):
     raise ZeroDivisionError("a line\\nand another")
 setattr(module, {name!r}, broken)
 sys.argv = ["elbowroom", *{words!r}]
-from elbowroom.cli import main
+from elbowroom._cli import main
 main()
 """
     failed = subprocess.run([sys.executable, "-c", broken], capture_output=True, text=True, timeout=120)
     assert failed.returncode == FAULT == 70
     first, second = failed.stderr.splitlines()
     assert first.startswith(
-        "error: a fault of elbowroom itself, not of what it was given: ZeroDivisionError: a line and another (cli/"
+        "error: a fault of elbowroom itself, not of what it was given: ZeroDivisionError: a line and another (_cli/"
     )
     assert second.startswith("please report it: this message, the command, the files it was given; elbowroom 0.")
     assert failed.stdout == ""
@@ -126,7 +126,7 @@ def test_durations_beyond_all_measure_are_refused(standin: er.Scene, tmp_path: P
                 make(standin, task="first", duration=duration)
     slow = tuple(joint.replace(velocity=1e-6) for joint in standin.arm.joints)
     crawling = standin.replace(arm=standin.arm.replace(joints=slow))
-    from elbowroom.plan_files import write_plan
+    from elbowroom._plan_files import write_plan
 
     with pytest.raises(er.BadSetting, match="does not fit"):
         write_plan(er.plan(crawling, task="second", planner="dstar"), tmp_path)
@@ -216,7 +216,7 @@ def test_files_are_written_whole_or_not_at_all(tmp_path: Path) -> None:
     assert caught.value.filename == str(tmp_path / "no folder" / "a.txt")
 
 
-@pytest.mark.parametrize("module", ["elbowroom.cli.main", "numpy", "elbowroom._core", "elbowroom.plan"])
+@pytest.mark.parametrize("module", ["elbowroom._cli.main", "numpy", "elbowroom._core", "elbowroom._plan"])
 def test_ctrl_c_while_it_starts_is_no_fault(module: str, scenes: Path) -> None:
     # Whatever is imported when the signal comes.
     code = f"""\
@@ -240,7 +240,7 @@ main()
 def test_what_never_ends_is_read_no_further_than_a_file_may_be_long(
     standin: er.Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("elbowroom.trajectory_files.LARGEST_FILE", 1)
+    monkeypatch.setattr("elbowroom._trajectory_files.LARGEST_FILE", 1)
     with pytest.raises(er.TrajectoryError, match="/dev/zero: more than 1 MiB"):
         er.check_file(standin, "/dev/zero")
 

@@ -9,11 +9,11 @@ from PIL import Image
 from typer.testing import CliRunner
 
 import elbowroom as er
-from elbowroom.cli.main import app
+from elbowroom._cli.main import app
 from elbowroom.follow import follow
-from elbowroom.follow.animation import END, animate
-from elbowroom.follow.clearances import clearances
-from elbowroom.follow.files import record
+from elbowroom.follow._animation import END, animate
+from elbowroom.follow._clearances import clearances
+from elbowroom.follow._files import record
 
 SCENES = ("moving-one", "moving-three", "door", "goal-blocked", "chase", "late")
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.cli.plan_text import in_words, verdict_lines
+from elbowroom._cli.plan_text import in_words, verdict_lines
 
 
 def limited(scene: er.Scene, *limits: dict[str, float]) -> er.Scene:

@@ -14,11 +14,11 @@ from typer.testing import CliRunner
 from yaml import safe_dump
 
 import elbowroom as er
-from elbowroom.cli.main import app
-from elbowroom.cli.plan_text import in_words, verdict_lines
-from elbowroom.compare.generate import write_scenes
+from elbowroom._cli.main import app
+from elbowroom._cli.plan_text import in_words, verdict_lines
+from elbowroom._plan_files import as_json, columns, write_plan
+from elbowroom.compare._generate import write_scenes
 from elbowroom.figures import configuration_space
-from elbowroom.plan_files import as_json, columns, write_plan
 
 Chain = Callable[..., er.Scene]
 Planned = Callable[[er.Scene], er.Plan]

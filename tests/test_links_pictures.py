@@ -13,10 +13,10 @@ from PIL import Image
 
 import elbowroom as er
 from elbowroom import figures
-from elbowroom.cli.plan_pictures import draw, not_drawn
-from elbowroom.figures.curves import joint_lines
-from elbowroom.figures.links import capsule, link_colours
-from elbowroom.figures.style import LINK_1, LINK_2
+from elbowroom._cli.plan_pictures import draw, not_drawn
+from elbowroom.figures._curves import joint_lines
+from elbowroom.figures._links import capsule, link_colours
+from elbowroom.figures._style import LINK_1, LINK_2
 
 Chain = Callable[..., er.Scene]
 Planned = Callable[[er.Scene], er.Plan]

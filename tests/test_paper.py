@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from elbowroom.paper import reproduce
-from elbowroom.paper.bounds import around_disc, nearest_reach, octile
+from elbowroom._paper import reproduce
+from elbowroom._paper.bounds import around_disc, nearest_reach, octile
 
 
 def test_bounds_are_the_known_ones() -> None:

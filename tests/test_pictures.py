@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 from PIL import Image
 
 import elbowroom as er
-from elbowroom import figures, walls
-from elbowroom.cli.plan_pictures import draw
-from elbowroom.figures import maps, style
-from elbowroom.samples import Floats
-from elbowroom.walls import walls_in_words
+from elbowroom import _walls as walls
+from elbowroom import figures
+from elbowroom._cli.plan_pictures import draw
+from elbowroom._samples import Floats
+from elbowroom._walls import walls_in_words
+from elbowroom.figures import _maps as maps
+from elbowroom.figures import _style as style
 from tests.colour_distance import SEEN, distance
 
 
@@ -173,15 +175,15 @@ def test_the_last_picture_of_a_motion_stays(pick: er.Plan, tmp_path: Path) -> No
 
 
 def test_names_of_what_moves_stay_within_the_picture(scenes: Path) -> None:
-    from elbowroom.figures.style import plane
-    from elbowroom.follow.animation import _DrawnMover
+    from elbowroom.figures._style import plane
+    from elbowroom.follow._animation import _DrawnMover
 
     scene = er.Scene.load(scenes / "moving-one.yaml")
     figure, axes = plane("t", scene, moving=False)
     mover = _DrawnMover(axes, scene.obstacles[-1], label="12 a long name", scale=100.0)
     figure.draw_without_rendering()
     mover.measure()
-    from elbowroom.outlines import middle
+    from elbowroom._outlines import middle
 
     frame = axes.get_window_extent()
     for x in np.linspace(scene.grid.x[0], scene.grid.x[1], 23):

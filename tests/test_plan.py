@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom.own_planners import OWN
-from elbowroom.plan_files import as_csv, as_json, columns, write_plan
+from elbowroom._own_planners import OWN
+from elbowroom._plan_files import as_csv, as_json, columns, write_plan
 
 
 def test_the_maps_hold_a_reason_for_every_point(standin: er.Scene) -> None:

@@ -182,7 +182,7 @@ if __name__ == "__main__":
 
 
 def command(*arguments: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-c", "from elbowroom.cli import main; main()", "plan", *arguments]
+    line = [sys.executable, "-c", "from elbowroom._cli import main; main()", "plan", *arguments]
     return subprocess.run(line, check=False, capture_output=True, text=True, timeout=120)
 
 

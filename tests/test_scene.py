@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import elbowroom as er
-from elbowroom import _core
-from elbowroom.scene import Obstacle
+from elbowroom._scene import Obstacle
 
 SOUND = """\
 elbowroom: 1
@@ -284,7 +283,7 @@ def test_tasks_are_a_mapping_that_cannot_be_written_to(standin: er.Scene) -> Non
 
 
 def test_examples_of_the_extension_run() -> None:
-    ran = doctest.testmod(_core, raise_on_error=True)
+    ran = doctest.testmod(er, raise_on_error=True)
     assert ran.attempted > 5
 
 

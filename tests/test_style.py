@@ -9,7 +9,7 @@ import pytest
 from matplotlib.patches import Circle, Polygon
 
 import elbowroom as er
-from elbowroom.figures.style import corners_of, plane
+from elbowroom.figures._style import corners_of, plane
 
 
 def distance(point: tuple[float, float], a: tuple[float, float], b: tuple[float, float]) -> float:

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from elbowroom.errors import TrajectoryError
-from elbowroom.trajectory_files import read_trajectory
+from elbowroom._errors import TrajectoryError
+from elbowroom._trajectory_files import read_trajectory
 
 ROUNDS = 3000
 

@@ -13,9 +13,9 @@ import pytest
 from typer.testing import CliRunner
 
 import elbowroom as er
-from elbowroom.cli.length import metres
-from elbowroom.cli.main import app
-from elbowroom.cli.plan_text import in_words, verdict_lines
+from elbowroom._cli.length import metres
+from elbowroom._cli.main import app
+from elbowroom._cli.plan_text import in_words, verdict_lines
 
 CELL = """elbowroom: 1
 units: {length: mm, angle: deg}

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from elbowroom.cli.main import app
+from elbowroom._cli.main import app
 
 ROOT = Path(__file__).parent.parent
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 import elbowroom as er
 from bench.clock import OUT, ROOT, core, median_ms
 from bench.entries import MS_CLASS, Comparison, Entry, Goal, Section, attempt
-from elbowroom.scene import Obstacle
+from elbowroom._scene import Obstacle
 
 Floats = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -3,8 +3,10 @@
 Lengths are in metres, angles in radians, times in seconds; positions are in the world frame.
 """
 
+from dataclasses import is_dataclass
 from importlib.metadata import version
 
+from elbowroom._check import JudgedMessage, check, check_file, check_messages
 from elbowroom._core import (
     Arm,
     Check,
@@ -28,8 +30,7 @@ from elbowroom._core import (
     Verdict,
     Violation,
 )
-from elbowroom.check import JudgedMessage, check, check_file, check_messages
-from elbowroom.errors import (
+from elbowroom._errors import (
     BadSetting,
     ElbowroomError,
     InternalError,
@@ -43,12 +44,12 @@ from elbowroom.errors import (
     TrajectoryError,
     UnknownTask,
 )
-from elbowroom.free_space import FreeSpace, FreeSpaceMap, free_space
-from elbowroom.known import Known, Sighting
-from elbowroom.plan import plan, plan_as_in_paper
-from elbowroom.replanner import Replanner, Update
-from elbowroom.samples import Samples
-from elbowroom.world import World
+from elbowroom._free_space import FreeSpace, FreeSpaceMap, free_space
+from elbowroom._known import Known, Sighting
+from elbowroom._plan import plan, plan_as_in_paper
+from elbowroom._replanner import Replanner, Update
+from elbowroom._samples import Samples
+from elbowroom._world import World
 
 __version__ = version("elbowroom")
 
@@ -103,3 +104,11 @@ __all__ = [
     "plan",
     "plan_as_in_paper",
 ]
+
+for _name in __all__:
+    # Private modules are no address: tracebacks, help and pickles say ``elbowroom.NotFound``. Dataclasses stay, but for
+    # errors: their annotations are read by the names of their module.
+    _public = globals()[_name]
+    _stays = is_dataclass(_public) and not issubclass(_public, BaseException)  # type: ignore[arg-type]
+    if getattr(_public, "__module__", "").startswith(f"{__name__}._") and not _stays:
+        _public.__module__ = __name__

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import disjoint_base
 
-from elbowroom.known import Known
-from elbowroom.objectives import Objective
-from elbowroom.samples import Samples
-from elbowroom.scene import AngleUnit, LengthUnit, Outline, Pair, Place, PostureWish
+from elbowroom._known import Known
+from elbowroom._objectives import Objective
+from elbowroom._samples import Samples
+from elbowroom._scene import AngleUnit, LengthUnit, Outline, Pair, Place, PostureWish
 
 __all__ = [
     "ASSUMED_LIMITS",

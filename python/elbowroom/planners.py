@@ -12,15 +12,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from elbowroom import plugins
+from elbowroom import _plugins
 from elbowroom._core import Plan, __version__
-from elbowroom.errors import BadSetting
-from elbowroom.objectives import Objective
-from elbowroom.own_planners import OWN, OwnOption, all_options
-from elbowroom.plain_numbers import number, whole
-from elbowroom.plan import plan as own_plan
-from elbowroom.plugins import BrokenPlugin, Option, PlannerPlugin, Proposal
-from elbowroom.scene import Scene
+from elbowroom._errors import BadSetting
+from elbowroom._objectives import Objective
+from elbowroom._own_planners import OWN, OwnOption, all_options
+from elbowroom._plain_numbers import number, whole
+from elbowroom._plan import plan as own_plan
+from elbowroom._plugins import BrokenPlugin, Option, PlannerPlugin, Proposal
+from elbowroom._scene import Scene
 
 __all__ = [
     "BrokenPlugin",
@@ -104,7 +104,7 @@ class Choice:
 
 def known() -> list[str]:
     """Return the names of all planners, elbowroom's own first."""
-    return [*OWN, *plugins.installed()]
+    return [*OWN, *_plugins.installed()]
 
 
 def chosen(text: str) -> Choice:
@@ -114,18 +114,18 @@ def chosen(text: str) -> Choice:
         BadSetting: There is no such planner or option; the known ones are listed.
     """
     name, *assignments = text.strip().split(":")
-    point = plugins.entry_point(name)
+    point = _plugins.entry_point(name)
     if point is None:
         owner = f"elbowroom {__version__}"
         defaults: Mapping[str, Option] = OWN[name].options
     else:
-        owner = plugins.package(point)
+        owner = _plugins.package(point)
         try:
-            planner = plugins.loaded(point)
+            planner = _plugins.loaded(point)
         except BrokenPlugin:
             pairs = dict(_pairs(name, assignments))
             return Choice(name, pairs, pairs, owner, owned=False)
-        defaults, owner = plugins.options_of(planner), _with_version(owner, planner)
+        defaults, owner = _plugins.options_of(planner), _with_version(owner, planner)
     options: dict[str, Option] = {}
     for key, value in _pairs(name, assignments):
         if key not in defaults:
@@ -146,13 +146,13 @@ def given(planner: PlannerPlugin) -> Choice:
     Raises:
         BadSetting: Another process could not find it.
     """
-    reference = plugins.reference_to(planner)
+    reference = _plugins.reference_to(planner)
     try:
         source = inspect.getsource(planner)
     except (OSError, TypeError):
         source = ""
     owner = f"{reference} {hashlib.sha256(source.encode()).hexdigest()[:12]}"
-    return Choice(reference, {}, plugins.options_of(planner), _with_version(owner, planner), owned=False)
+    return Choice(reference, {}, _plugins.options_of(planner), _with_version(owner, planner), owned=False)
 
 
 def all_chosen(text: str) -> list[Choice]:
@@ -178,9 +178,9 @@ def load(name: str) -> PlannerPlugin:
         BrokenPlugin: It is a plug-in whose import fails, or that cannot be called.
     """
     if "." in name and name not in known():
-        return plugins.referenced(name)
-    point = plugins.entry_point(name)
-    return OwnPlanner(name) if point is None else plugins.loaded(point)
+        return _plugins.referenced(name)
+    point = _plugins.entry_point(name)
+    return OwnPlanner(name) if point is None else _plugins.loaded(point)
 
 
 def _with_version(owner: str, planner: PlannerPlugin) -> str:

@@ -6,7 +6,7 @@ import sys
 def main() -> None:
     """Run the program."""
     try:
-        from elbowroom.cli import main as run
+        from elbowroom._cli import main as run
 
         run()
     except KeyboardInterrupt:

@@ -1,4 +1,4 @@
-//! From the core's typed errors to the classes of `elbowroom.errors`.
+//! From the core's typed errors to the classes of `elbowroom._errors`.
 
 use elbowroom::free_space::{NotFree, Reason};
 use elbowroom::online::ReplanError;
@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyList, PyTuple};
 use crate::scene::Scene;
 use crate::verdict::Verdict;
 
-/// The exception `elbowroom.errors.<class>(message, **fields)`.
+/// The exception `elbowroom._errors.<class>(message, **fields)`.
 fn exception<'py>(
     py: Python<'py>,
     class: &str,
@@ -22,7 +22,7 @@ fn exception<'py>(
     let made = || -> PyResult<Bound<'py, PyAny>> {
         let kwargs = PyDict::new(py);
         fields(&kwargs)?;
-        py.import("elbowroom.errors")?.getattr(class)?.call((message,), Some(&kwargs))
+        py.import("elbowroom._errors")?.getattr(class)?.call((message,), Some(&kwargs))
     };
     match made() {
         Ok(value) => PyErr::from_value(value),

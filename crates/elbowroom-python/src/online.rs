@@ -212,7 +212,7 @@ impl<'py> Seen<'py> {
     }
 }
 
-/// What is known of an obstacle that moves, from Python: its course, or an `elbowroom.known.Sighting`.
+/// What is known of an obstacle that moves, from Python: its course, or an `elbowroom.Sighting`.
 #[derive(FromPyObject)]
 enum KnownPart<'py> {
     Course(Bound<'py, ObstacleMotion>),

@@ -298,22 +298,22 @@ pub(crate) fn in_order<'py>(py: Python<'py>, timings: &[(String, f64)]) -> PyRes
     Ok(stages)
 }
 
-/// `elbowroom.samples.within`.
+/// `elbowroom._samples.within`.
 pub(crate) fn within<'py>(
     py: Python<'py>,
     scene: &Py<Scene>,
     motion: &Py<Motion>,
     t: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    py.import("elbowroom.samples")?.getattr("within")?.call1((scene, motion, t))
+    py.import("elbowroom._samples")?.getattr("within")?.call1((scene, motion, t))
 }
 
-/// `elbowroom.samples.every`.
+/// `elbowroom._samples.every`.
 pub(crate) fn every<'py>(
     py: Python<'py>,
     scene: &Py<Scene>,
     motion: &Py<Motion>,
     period: f64,
 ) -> PyResult<Bound<'py, PyAny>> {
-    py.import("elbowroom.samples")?.getattr("every")?.call1((scene, motion, period))
+    py.import("elbowroom._samples")?.getattr("every")?.call1((scene, motion, period))
 }

@@ -9,9 +9,10 @@ Example:
     ...     return [row.cost for row in found.rows]
 """
 
-from elbowroom.compare.comparison import Comparison, compare
-from elbowroom.compare.row import Problem, Row
-from elbowroom.compare.straight_turns import straight_turns
-from elbowroom.compare.table import Table
+from elbowroom.compare._comparison import Comparison, compare
+from elbowroom.compare._row import Problem, Row
+from elbowroom.compare._run import run
+from elbowroom.compare._straight_turns import straight_turns
+from elbowroom.compare._table import Table
 
-__all__ = ["Comparison", "Problem", "Row", "Table", "compare", "straight_turns"]
+__all__ = ["Comparison", "Problem", "Row", "Table", "compare", "run", "straight_turns"]

@@ -1,6 +1,6 @@
 """An arm that keeps going among obstacles that move, simulated: what ``elbowroom follow`` does."""
 
-from elbowroom.follow.followed import Followed, Outcome, Step
-from elbowroom.follow.simulation import follow
+from elbowroom.follow._followed import Followed, Outcome, Step
+from elbowroom.follow._simulation import follow
 
 __all__ = ["Followed", "Outcome", "Step", "follow"]

@@ -37,12 +37,12 @@ impl Source {
     }
 }
 
-/// The text of the scene file at `path`: `elbowroom.scene.text_of`.
+/// The text of the scene file at `path`: `elbowroom._scene.text_of`.
 pub(crate) fn text_of(path: &Bound<'_, PyAny>) -> PyResult<String> {
-    path.py().import("elbowroom.scene")?.call_method1("text_of", (path,))?.extract()
+    path.py().import("elbowroom._scene")?.call_method1("text_of", (path,))?.extract()
 }
 
-/// The text of the example called `name`: `elbowroom.scene.example_text`.
+/// The text of the example called `name`: `elbowroom._scene.example_text`.
 pub(crate) fn example_text(py: Python<'_>, name: &str) -> PyResult<String> {
-    py.import("elbowroom.scene")?.call_method1("example_text", (name,))?.extract()
+    py.import("elbowroom._scene")?.call_method1("example_text", (name,))?.extract()
 }

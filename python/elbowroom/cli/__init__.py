@@ -1,5 +1,0 @@
-"""The command line. Commands import what they need when they run, so that ``--help`` answers at once."""
-
-from elbowroom.cli.main import main
-
-__all__ = ["main"]
