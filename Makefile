@@ -30,6 +30,7 @@ tables: setup
 	$(BIN)/python -m bench.objectives
 	$(BIN)/python -m bench.bounds
 	$(BIN)/python -m bench.moving
+	$(BIN)/python -m bench.motions
 
 # All planners on the same tasks (docs/table2.md); rows that are there in out/table2 are kept. An hour on two cores.
 table2: setup

@@ -97,13 +97,14 @@ class NoPath(ElbowroomError):
 
     ``reachable`` holds the corners (rad) of convex cells in the plane of both joints, cell by cell: together they hold
     every configuration that can be reached from ``starts``, and their outer walls are forbidden all along. None of
-    ``goals`` lies there.
+    ``goals`` lies there. Where a ``clearance`` (m) was asked for, what comes nearer than that is forbidden.
     """
 
     task: str
     reachable: Sequence[Sequence[Sequence[float]]]
     starts: Sequence[Sequence[float]]
     goals: Sequence[Sequence[float]]
+    clearance: float = 0.0
 
 
 @dataclass(eq=False, repr=False, kw_only=True)

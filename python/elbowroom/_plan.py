@@ -31,6 +31,8 @@ def plan(
     seed: int = 0,
     duration: float | None = None,
     gap: float | None = None,
+    slack: float | None = None,
+    clearance: float | None = None,
     timeout: float | None = None,
     on_stage: Callable[[str], None] | None = None,
 ) -> Plan:
@@ -51,9 +53,13 @@ def plan(
         options: Those of the planner that differ from its defaults, such as ``{"candidates": 100}``.
         objective: Quantity to minimise: ``tip`` travel, ``joint`` travel or ``time``.
         seed: Random seed.
-        duration: Of the motion (s); None for as fast as the motion limits allow along the path.
+        duration: Of the motion (s), the smoothest; None for the fastest that is found within the motion limits.
         gap: For ``optimal``: refine until the proven optimality gap is below this share, or the timeout, or nothing
             finer is left to try; the plan says what was reached.
+        slack: For ``tip`` and ``joint``: by which share a motion may be longer than the shortest that is found to be
+            faster; None for 0.005.
+        clearance: What the motion keeps (m) between links and what they must not touch, proved; None for that of the
+            task. Start and goal have to keep it too.
         timeout: When to give up (s).
         on_stage: Called with the name of each stage as it begins.
 
@@ -85,6 +91,8 @@ def plan(
                 objective=objective,
                 seed=seed,
                 duration=duration,
+                slack=slack,
+                clearance=clearance,
                 timeout=timeout,
                 on_stage=on_stage,
             )
@@ -97,6 +105,8 @@ def plan(
             options=list(all_options(asked, options or {}).items()),
             duration=duration,
             gap=gap,
+            slack=slack,
+            clearance=clearance,
             timeout=timeout,
             on_stage=on_stage,
         )

@@ -59,6 +59,7 @@ def as_json(plan: AnyPlan) -> dict[str, Any]:
             {"start": start, "duration": duration, "coefficients": of_joints}
             for start, duration, of_joints in zip(starts, durations, coefficients, strict=True)
         ],
+        "clearance": proved.clearance if proved is not None else 0.0,
         "verified": proved is not None,
         "verdict": proved.verdict.as_dict() if proved is not None else None,
         "evaluations": proved.evaluations if proved is not None else None,

@@ -24,6 +24,8 @@ def plan_proposed(
     objective: Objective,
     seed: int,
     duration: float | None,
+    slack: float | None,
+    clearance: float | None,
     timeout: float | None,
     on_stage: Callable[[str], None] | None,
 ) -> Plan:
@@ -44,9 +46,11 @@ def plan_proposed(
             raise BadSetting(message, setting=option)
     if on_stage is not None:
         on_stage("search")
+    kept = scene.tasks[task].clearance if clearance is None else clearance
+    seen = scene.with_clearance(kept) if kept != 0.0 else scene
     begun = perf_counter()
     try:
-        answer = planner(scene, task, seed=seed, timeout=timeout, budget=None, objective=objective, **options)
+        answer = planner(seen, task, seed=seed, timeout=timeout, budget=None, objective=objective, **options)
     except ElbowroomError:
         raise
     # A plug-in may call sys.exit.
@@ -64,6 +68,8 @@ def plan_proposed(
         **_candidate(name, answer),
         timings=[("search", spent)],
         duration=duration,
+        slack=slack,
+        clearance=clearance,
         timeout=None if timeout is None else max(timeout - spent, 0.0),
         on_stage=on_stage,
     )

@@ -43,7 +43,7 @@ def walls_in_words(scene: Scene, proof: NoPath) -> str:
     lengths = {}
     for i, obstacle in enumerate(scene.obstacles):
         alone = scene.replace(obstacles=[obstacle], tasks={})
-        touching = int(np.count_nonzero(alone.link_clearances(places[ring]).min(axis=1) <= 0.0))
+        touching = int(np.count_nonzero(alone.link_clearances(places[ring]).min(axis=1) <= proof.clearance))
         if touching:
             lengths[called_obstacle(i, obstacle.name)] = touching
     named = sorted(lengths, key=lambda called: -lengths[called])

@@ -207,9 +207,12 @@ pub(crate) fn plan(
             fields.set_item("task", task)?;
             fields.set_item("reachable", &proof.reachable)?;
             fields.set_item("starts", &proof.starts)?;
-            fields.set_item("goals", &proof.goals)
+            fields.set_item("goals", &proof.goals)?;
+            fields.set_item("clearance", proof.clearance)
         }),
         PlanError::Gap { .. } | PlanError::GapOfOneRound { .. } => setting(py, "gap", &message),
+        PlanError::Slack { .. } => setting(py, "slack", &message),
+        PlanError::Clearance { .. } => setting(py, "clearance", &message),
         PlanError::Moving { .. } => setting(py, "scene", &message),
         PlanError::OtherArm { links, .. } => {
             let serving = planners::all().into_iter().filter(|known| known.links().contains(links));

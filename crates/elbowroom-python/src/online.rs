@@ -53,6 +53,10 @@ impl Replanner {
     ) -> PyResult<Self> {
         let asked = scene.task(py, task)?;
         scene.check_links(py, WHAT)?;
+        if asked.clearance > 0.0 {
+            let message = format!("task '{task}' has a clearance, which {WHAT} cannot keep");
+            return Err(errors::setting(py, "task", &message));
+        }
         let (units, scene) = (scene.units(), &scene.scene);
         let start = match q {
             Some(q) => Place::Configuration(pair(py, "q", &q)?.into()),

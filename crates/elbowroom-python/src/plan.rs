@@ -205,6 +205,12 @@ impl Plan {
         self.plan.record().vias.clone()
     }
 
+    /// The clearance that was asked for, and is proved to be kept (m); 0 if only contact was forbidden.
+    #[getter]
+    fn clearance(&self) -> f64 {
+        self.plan.record().clearance
+    }
+
     /// How many via points, ends left out, the arm stops at.
     #[getter]
     fn stops(&self) -> usize {

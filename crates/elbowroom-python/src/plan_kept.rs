@@ -33,6 +33,7 @@ pub(crate) struct Kept {
     assumed_limits: Vec<(usize, String, f64)>,
     effort: Option<(usize, Vec<(usize, f64)>)>,
     timings: Vec<(String, f64)>,
+    clearance: f64,
 }
 
 impl Kept {
@@ -56,6 +57,7 @@ impl Kept {
             assumed_limits: plan.assumed_limits.iter().map(limit).collect(),
             effort: plan.effort.as_ref().map(|effort| (effort.evaluations, effort.convergence.clone())),
             timings: shown.timings.clone(),
+            clearance: plan.clearance,
         }
     }
 }
@@ -89,6 +91,7 @@ pub(crate) fn plan_again(py: Python<'_>, scene: Py<Scene>, motion: &Motion, kept
         stops: kept.stops,
         assumed_limits,
         effort: kept.effort.map(|(evaluations, convergence)| Effort { evaluations, convergence }),
+        clearance: kept.clearance,
     };
     let motion = (*motion.motion).clone();
     let (again, _) =

@@ -1,7 +1,7 @@
 //! From a task to a plan.
 
 use elbowroom::planners;
-use elbowroom::planning::{self, ASSUMED_LIMITS, Objective, OptionValue, Pace, PlanSettings, Planner};
+use elbowroom::planning::{self, ASSUMED_LIMITS, Objective, OptionValue, Pace, PlanSettings, Planner, SLACK};
 use elbowroom::units::Told;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -105,7 +105,7 @@ fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) ->
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense, or the duration is too short.
 #[pyfunction]
-#[pyo3(signature = (scene, task, *, planner, objective, seed, options, duration=None, gap=None, timeout=None, on_stage=None))]
+#[pyo3(signature = (scene, task, *, planner, objective, seed, options, duration=None, gap=None, slack=None, clearance=None, timeout=None, on_stage=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
@@ -117,6 +117,8 @@ pub(crate) fn plan(
     options: Vec<(String, OptionPart)>,
     duration: Option<f64>,
     gap: Option<f64>,
+    slack: Option<f64>,
+    clearance: Option<f64>,
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
@@ -125,7 +127,7 @@ pub(crate) fn plan(
     let objective = objective_called(py, objective)?;
     let planner = by_name(py, planner, options)?;
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let settings = PlanSettings { objective, pace, seed, gap };
+    let settings = PlanSettings { objective, pace, seed, gap, slack: slack.unwrap_or(SLACK), clearance };
     let work = |watch: &watch::Watch| planning::plan(&core.scene, asked, &*planner, &settings, watch);
     let (result, timings) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::plan(py, core.units(), task, timeout, &error))?;
@@ -161,6 +163,10 @@ pub(crate) fn told(planner: &dyn Planner, settings: &PlanSettings) -> Vec<(Strin
         Pace::Duration(seconds) => Setting::Number(seconds),
     };
     let mut told = vec![("mode", Setting::Word("verified".to_owned())), ("duration", duration)];
+    if settings.objective != Objective::Time {
+        told.push(("slack", Setting::Number(settings.slack)));
+    }
+    told.extend(settings.clearance.map(|clearance| ("clearance", Setting::Number(clearance))));
     told.extend(settings.gap.map(|gap| ("gap", Setting::Number(gap))));
     told.extend(planner.options().into_iter().map(|(name, value)| (name, value.into())));
     told.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()

@@ -3,7 +3,7 @@
 use elbowroom::arm::Configuration;
 use elbowroom::path::JointPath;
 use elbowroom::planning::{
-    self, Candidate, Effort, Found, Pace, Pick, PlanError, PlanSettings, Planner, Problem, Round,
+    self, Candidate, Effort, Found, Pace, Pick, PlanError, PlanSettings, Planner, Problem, Round, SLACK,
 };
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -45,7 +45,7 @@ impl Planner for Proposer {
 ///     BadSetting: A setting makes no sense, or the duration is too short.
 #[pyfunction]
 #[pyo3(signature = (scene, task, *, planner, settings, objective, seed, motion=None, configurations=None, evaluations=None,
-    convergence=None, timings, duration=None, timeout=None, on_stage=None))]
+    convergence=None, timings, duration=None, slack=None, clearance=None, timeout=None, on_stage=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan_proposed(
     py: Python<'_>,
@@ -61,6 +61,8 @@ pub(crate) fn plan_proposed(
     convergence: Option<Vec<(usize, f64)>>,
     timings: Vec<(String, f64)>,
     duration: Option<f64>,
+    slack: Option<f64>,
+    clearance: Option<f64>,
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
@@ -82,7 +84,8 @@ pub(crate) fn plan_proposed(
         evaluations.map(|evaluations| Effort { evaluations, convergence: convergence.unwrap_or_default() });
     let proposer = Proposer { name: planner, candidate, effort };
     let pace = duration.map_or(Pace::Fastest, Pace::Duration);
-    let plan_settings = PlanSettings { objective, pace, seed, gap: None };
+    let plan_settings =
+        PlanSettings { objective, pace, seed, gap: None, slack: slack.unwrap_or(SLACK), clearance };
     let work = |watch: &watch::Watch| planning::plan(&core.scene, asked, &proposer, &plan_settings, watch);
     let (result, spent) = watch::run(py, timeout, on_stage, work)?;
     let plan = result.map_err(|error| errors::proposed(py, core, (&proposer.name, task), timeout, &error))?;

@@ -16,7 +16,7 @@ use elbowroom::arm::{JointLimits, MotionLimits, Posture};
 use elbowroom::geometry::Point;
 use elbowroom::planners::{DstarPlanner, DstarPsoPlanner, OptimalPlanner};
 use elbowroom::planning::{
-    ASSUMED_LIMITS, Objective, Pace, Plan, PlanError, PlanSettings, Planner, Unwatched, plan,
+    ASSUMED_LIMITS, Objective, Pace, Plan, PlanError, PlanSettings, Planner, SLACK, Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, Task, TaskPosture};
 use elbowroom::swarm::GuidedSwarmSettings;
@@ -170,7 +170,7 @@ fn the_swarm_does_no_worse_than_dstar_by_what_it_was_asked_for() {
                 .map(|seed| run_task(&scene, index, &DstarPsoPlanner::default(), &of(seed)).unwrap().cost())
                 .collect();
             assert!(
-                costs.iter().all(|cost| *cost <= alone.cost() * (1.0 + 1e-9)),
+                costs.iter().all(|cost| *cost <= alone.cost() * (1.0 + SLACK)),
                 "{costs:?} {}",
                 alone.cost()
             );
@@ -190,7 +190,8 @@ fn optimal_comes_within_a_percent_of_the_best_joint_travel_known() {
             joints[0].limits = limits;
             let scene = scene.with_arm(build::arm_of(scene.arm().lengths(), 0.0, &joints)).unwrap();
             for (index, known) in known.into_iter().enumerate() {
-                let settings = PlanSettings { objective: Objective::Joint, ..PlanSettings::default() };
+                let settings =
+                    PlanSettings { objective: Objective::Joint, slack: 0.0, ..PlanSettings::default() };
                 let plan = run_task(&scene, index, &OptimalPlanner, &settings).unwrap();
                 assert!(plan.cost() <= 1.01 * known, "{} for {known}", plan.cost());
             }

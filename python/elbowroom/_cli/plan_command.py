@@ -36,6 +36,16 @@ def plan_command(
         float | None,
         number_option(help="With optimal: refine until the proven optimality gap is below this (0.01: 1 %)."),
     ] = None,
+    slack: Annotated[
+        float | None,
+        number_option(
+            help="With tip or joint: how much longer than the shortest a motion may be to be faster (0.005: 0.5 %, the default)."
+        ),
+    ] = None,
+    clearance: Annotated[
+        str | None,
+        typer.Option(help="Clearance to keep, in the unit of the scene or as 5mm. Default: that of the task."),
+    ] = None,
     out: Annotated[Path | None, folder_option(help="Folder for plan.json, trajectory.csv and the pictures.")] = None,
     animate: Annotated[bool, typer.Option("--animate", help="With --out: also write an animation (GIF).")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
@@ -44,6 +54,7 @@ def plan_command(
     with reported():
         import json
 
+        from elbowroom._cli.length import metres
         from elbowroom._cli.plan_text import in_words
         from elbowroom._cli.progress import progress
         from elbowroom._errors import BadSetting
@@ -60,6 +71,7 @@ def plan_command(
         if out is not None and seconds is not None:
             check_length(seconds)
         loaded = Scene.load(scene)
+        room = None if clearance is None else metres(clearance, loaded.units, setting="clearance")
         with progress() as show:
             plan = _planned(
                 lambda: make_plan(
@@ -72,6 +84,8 @@ def plan_command(
                     timeout=timeout,
                     duration=seconds,
                     gap=gap,
+                    slack=slack,
+                    clearance=room,
                     on_stage=show,
                 ),
                 loaded,

@@ -70,7 +70,7 @@ def _judged(problem: Problem, scene: Scene, answer: Any, begun: float, *, own: b
         motion, verdict = answer.motion, answer.verdict
     else:
         try:
-            judged = _verified(scene, answer)
+            judged = _verified(scene, answer, scene.tasks[problem.task].clearance)
         except (TrajectoryError, TypeError, ValueError) as error:
             return Row.failed(problem, "no_motion", str(error), time_s=perf_counter() - begun)
         motion, verdict = judged.motion, judged.verdict
@@ -113,14 +113,14 @@ ROUNDING = 1e-6
 """By which share a bound may be above the cost as it is measured here, which is right to some digits only."""
 
 
-def _verified(scene: Scene, answer: Plan | Proposal) -> Check:
-    """What the verifier says of ``answer`` in ``scene``, whatever it says of itself: a plan may be of another scene."""
+def _verified(scene: Scene, answer: Plan | Proposal, margin: float) -> Check:
+    """What the verifier says of ``answer`` in ``scene`` with a clearance of ``margin`` (m), whatever it says of itself: a plan may be of another scene."""
     if isinstance(answer, Plan):
-        return verify(scene, answer.motion, curve="quintic", margin=0.0)
+        return verify(scene, answer.motion, curve="quintic", margin=margin)
     t, q, v, a = rows_of(answer)
     motion, curve, _ = interpolated(t, q, v, a)
     # Whether it begins and ends where it should, at rest, is another question.
-    return verify(scene, motion, curve=curve, margin=0.0)
+    return verify(scene, motion, curve=curve, margin=margin)
 
 
 def _finite(value: Any, name: str) -> float:

@@ -21,7 +21,7 @@ def no_path(scene: Scene, proof: NoPath) -> Figure:
     shown = np.vstack([*ends, *(np.array(cell) for cell in proof.reachable)])
     ranges = [shown_range(joint, shown[:, j]) for j, joint in enumerate(scene.arm.joints)]
     figure, axes = joint_plane(scene, ranges)
-    contacts = draw_contacts(axes, scene, ranges)
+    contacts = draw_contacts(axes, scene.with_clearance(proof.clearance), ranges)
     cells = [cell * scale for cell in reachable_cells(scene, proof)]
     axes.add_collection(PolyCollection(cells, facecolors=FREE, edgecolors=FREE, linewidths=0.3, zorder=1.5))
     starts, goals = ([(float(q[0]) * scale, float(q[1]) * scale) for q in end] for end in ends)

@@ -1,6 +1,8 @@
 use elbowroom::geometry::Point;
 use elbowroom::path::{link_clearances, self_clearance};
+use elbowroom::planning::PlanError;
 use elbowroom::scene::{self, TwoLinkError, TwoLinkScene};
+use elbowroom::units::Told;
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3};
 use pyo3::exceptions::PyTypeError;
@@ -272,6 +274,19 @@ impl Scene {
     #[getter]
     fn sha256<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyString>> {
         self.sha256.made(py, || self.hashed(py))
+    }
+
+    /// Return the scene in which the arm touches something where in this one it comes as near to it as ``clearance`` (m): links and
+    /// obstacles are thicker by half of it each.
+    ///
+    /// Raises:
+    ///     BadSetting: The clearance is less than 0, or more than arm or obstacles can be thickened by.
+    fn with_clearance<'py>(&self, py: Python<'py>, clearance: f64) -> PyResult<Bound<'py, Self>> {
+        let thicker = self.scene.with_clearance(clearance).ok_or_else(|| {
+            let error = PlanError::Clearance { clearance };
+            errors::setting(py, "clearance", &error.told(self.units()))
+        })?;
+        Bound::new(py, Self::of(thicker, self.grid, self.units, None))
     }
 
     /// Return the clearance of each link from the obstacles at configurations ``q``, shape ``(n, joints)``, as an array

@@ -53,44 +53,55 @@ impl Configuration {
 ///     start: Where the arm is: a place of the tip (m), or a ``Configuration``.
 ///     goal: Where it shall be, the same.
 ///     posture: ``up`` or ``down`` at the goal, ``any``, or ``keep`` for that of the start all along.
+///     clearance: What every motion of it keeps (m) between links and what they must not touch.
 ///
 /// Raises:
-///     SceneError: There is no such posture.
+///     SceneError: There is no such posture, or the clearance is less than 0.
 #[pyclass(frozen, eq, extends = Part, module = "elbowroom._core")]
 #[derive(PartialEq)]
 pub(crate) struct Task {
     start: Place,
     goal: Place,
     posture: TaskPosture,
+    clearance: f64,
 }
 
 impl Task {
     pub(crate) fn of<'py>(py: Python<'py>, task: &scene::Task) -> PyResult<Bound<'py, Self>> {
         let (start, goal) = (task.start.clone(), task.goal.clone());
-        Bound::new(py, made(Self { start, goal, posture: task.posture }))
+        Bound::new(py, made(Self { start, goal, posture: task.posture, clearance: task.clearance }))
     }
 
     /// The task as the scene has it.
     pub(crate) fn called(&self, name: String) -> scene::Task {
-        scene::Task { name, start: self.start.clone(), goal: self.goal.clone(), posture: self.posture }
+        let (start, goal) = (self.start.clone(), self.goal.clone());
+        scene::Task { name, start, goal, posture: self.posture, clearance: self.clearance }
     }
 }
 
 #[pymethods]
 impl Task {
     #[new]
-    #[pyo3(signature = (*, start, goal, posture="any"))]
+    #[pyo3(signature = (*, start, goal, posture="any", clearance=0.0))]
     fn new(
         py: Python<'_>,
         start: &Bound<'_, PyAny>,
         goal: &Bound<'_, PyAny>,
         posture: &str,
+        clearance: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
         let Some((_, posture)) = POSTURES.into_iter().find(|(name, _)| *name == posture) else {
             let message = format!("'{posture}'; up, down, any or keep");
             return Err(errors::part(py, "task.posture", &message));
         };
-        Ok(made(Self { start: place(start, "start")?, goal: place(goal, "goal")?, posture }))
+        if !(0.0..f64::INFINITY).contains(&clearance) {
+            return Err(errors::part(
+                py,
+                "task.clearance",
+                &format!("{clearance}; a length of 0 m or greater"),
+            ));
+        }
+        Ok(made(Self { start: place(start, "start")?, goal: place(goal, "goal")?, posture, clearance }))
     }
 
     /// Where the arm is: a place of the tip (m), or a ``Configuration``.
@@ -111,6 +122,12 @@ impl Task {
         POSTURES.into_iter().find(|(_, known)| *known == self.posture).map_or("any", |(name, _)| name)
     }
 
+    /// The clearance that every motion of it has to keep (m).
+    #[getter]
+    fn clearance(&self) -> f64 {
+        self.clearance
+    }
+
     fn __hash__(slf: &Bound<'_, Self>) -> PyResult<isize> {
         hash_of(slf)
     }
@@ -119,7 +136,8 @@ impl Task {
         let keywords = Keywords::new(py)
             .with("start", self.start(py)?)?
             .with("goal", self.goal(py)?)?
-            .unless("any", "posture", self.posture())?;
+            .unless("any", "posture", self.posture())?
+            .unless(0.0, "clearance", self.clearance)?;
         Ok(keywords.told())
     }
 }

@@ -17,6 +17,8 @@ pub struct NotFree {
     pub reasons: Vec<(Option<Posture>, Reason)>,
     /// The free grid point nearest to where the tip would be (m), if there is a map with a free point.
     pub nearest_free: Option<Point>,
+    /// The clearance that was asked for (m): depths count from there.
+    pub clearance: f64,
 }
 
 impl std::error::Error for NotFree {}
@@ -40,8 +42,10 @@ impl Told for NotFree {
         let told =
             self.reasons.iter().take(if one_for_all { 1 } else { 2 }).map(
                 |(posture, reason)| match posture {
-                    Some(posture) if !one_for_all => format!("{}: {}", posture.name(), reason.told(units)),
-                    _ => reason.told(units),
+                    Some(posture) if !one_for_all => {
+                        format!("{}: {}", posture.name(), reason.told_within(units, self.clearance))
+                    }
+                    _ => reason.told_within(units, self.clearance),
                 },
             );
         let reasons: Vec<String> = told.collect();
@@ -85,7 +89,12 @@ pub fn configurations(scene: TwoLinkScene<'_>, place: &Place) -> Result<Vec<[f64
         }
     }
     if found.is_empty() {
-        return Err(NotFree { place: place.clone(), reasons, nearest_free: nearest_free(scene, place) });
+        return Err(NotFree {
+            place: place.clone(),
+            reasons,
+            nearest_free: nearest_free(scene, place),
+            clearance: 0.0,
+        });
     }
     Ok(found)
 }

@@ -121,6 +121,13 @@ fn deepest_self_contact(scene: &Scene, q: &[f64]) -> Option<Reason> {
 
 impl Told for Reason {
     fn told(&self, units: Units) -> String {
+        self.told_within(units, 0.0)
+    }
+}
+
+impl Reason {
+    /// In words, where `clearance` (m) was asked for and depths count from there.
+    pub(super) fn told_within(&self, units: Units, clearance: f64) -> String {
         match self {
             &Self::OutOfReach { distance, nearest, farthest } => {
                 let beyond = if distance > farthest { farthest } else { nearest };
@@ -144,17 +151,23 @@ impl Told for Reason {
                 }
             },
             Self::Collision { link, obstacle, name, depth } => {
-                contact(units, *link, &obstacle_in_words(*obstacle, name.as_deref()), *depth)
+                contact(units, *link, &obstacle_in_words(*obstacle, name.as_deref()), *depth, clearance)
             }
             Self::SelfCollision { link, other, depth } => {
-                contact(units, *link, &format!("link {other}"), *depth)
+                contact(units, *link, &format!("link {other}"), *depth, clearance)
             }
             Self::OtherArm { .. } => self.to_string(),
         }
     }
 }
 
-fn contact(units: Units, link: usize, other: &str, depth: f64) -> String {
+fn contact(units: Units, link: usize, other: &str, depth: f64, clearance: f64) -> String {
+    if depth < clearance - CONTACT_FLOOR {
+        let [nearest, asked] = apart(units.of_metres(clearance - depth), units.of_metres(clearance));
+        let unit = units.length.name();
+        return format!("link {link} would be {nearest} {unit} from {other}, {asked} {unit} were asked for");
+    }
+    let depth = depth - clearance;
     // Within the floor of contact there is no depth to speak of.
     if depth <= CONTACT_FLOOR {
         return format!("link {link} would touch {other}");

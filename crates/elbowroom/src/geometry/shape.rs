@@ -169,6 +169,13 @@ impl Shape {
         Self { vertices: self.vertices.iter().map(|vertex| *vertex + by).collect(), radius: self.radius }
     }
 
+    /// All that is within `by` (m) of the shape; `None` if that is not 0 or greater, or too great.
+    pub fn grown(&self, by: f64) -> Option<Self> {
+        let radius = self.radius + by;
+        let sound = by >= 0.0 && radius <= GREATEST && self.vertices.iter().copied().all(is_near);
+        sound.then(|| Self { vertices: self.vertices.clone(), radius })
+    }
+
     /// Of the core, in the order given: a disc's centre, a segment's ends, a polygon's corners.
     pub fn vertices(&self) -> &[Point] {
         &self.vertices

@@ -23,6 +23,7 @@ impl Routes {
             start: Place::Configuration(start.into()),
             goal: goal.clone(),
             posture: TaskPosture::Any,
+            clearance: 0.0,
         };
         let roadmap = || Roadmap::new(still(scene, |_, _| None), &task);
         Ok(Self { past_all: roadmap()?, past_still: roadmap()? })

@@ -34,6 +34,11 @@ impl ControlPoints {
         self.points.len() / self.joints
     }
 
+    /// Pieces between knots.
+    pub(super) fn pieces(&self) -> usize {
+        self.len() - 3
+    }
+
     /// Which points may be moved.
     pub(super) fn free(&self) -> std::ops::Range<usize> {
         3..self.len() - 3
@@ -71,6 +76,12 @@ impl ControlPoints {
                 .max(libm::cbrt(greatest(3) / limits.jerk));
         }
         least * (1.0 + STEP_ROUNDING)
+    }
+
+    /// The sum of squares of all differences of this order (rad²).
+    pub(super) fn squares(&self, order: usize) -> f64 {
+        let all = (0..self.len() - order).flat_map(|i| (0..self.joints).map(move |j| (i, j)));
+        all.map(|(i, j)| self.difference(order, i, j)).map(|difference| difference * difference).sum()
     }
 
     /// Where the joints are at `share` of a piece (rad).

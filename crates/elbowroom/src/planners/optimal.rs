@@ -90,7 +90,7 @@ impl OptimalPlanner {
     }
 }
 
-/// A motion along `path`, or the path itself, with stops, where that costs less.
+/// A motion along `path`.
 fn candidate(path: JointPath, tolerance: f64) -> Candidate {
-    Candidate::certified(PathToFollow { path, tip_travel: None, tolerance, may_stop: true })
+    Candidate::certified(PathToFollow { path, tip_travel: None, tolerance })
 }

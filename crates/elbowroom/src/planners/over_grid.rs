@@ -153,7 +153,7 @@ pub(super) fn paths_over_grid(
     chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SHORTLIST));
     let candidate = |(tip_travel, path)| {
         let tip_travel = Some(tip_travel);
-        Candidate::certified(PathToFollow { path, tip_travel, tolerance: GRID_TOLERANCE, may_stop: false })
+        Candidate::certified(PathToFollow { path, tip_travel, tolerance: GRID_TOLERANCE })
     };
     let candidates = chosen.into_iter().map(candidate).collect();
     Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })

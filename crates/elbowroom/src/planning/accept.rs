@@ -1,25 +1,20 @@
 //! From what a planner found, paths or motions, to one that is accepted.
 
 use super::candidate::Proposed;
-use super::faster::fastest_of;
 use super::limits::stated_limits;
 use super::made::{Made, followed, mismatched};
-use super::smoothing::{SmoothError, Smoothed, Style, smooth};
-use super::{AssumedLimit, Found, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage};
-use crate::path::JointPath;
+use super::shaping::{best_of, shapes};
+use super::smoothing::{SmoothError, Smoothed, smooth};
+use super::{
+    AssumedLimit, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage, mismatch,
+};
 use crate::trajectory::Motion;
 use crate::verify::{Trajectory, VerifySettings};
-
-/// How much less a path has to cost than its smooth motion for the arm to stop at its corners, as a share.
-const WORTH_STOPPING: f64 = 0.005;
-
-/// How much closer to the path a motion is tried before one that stops at corners, as a share of the tolerance.
-const CLOSER: f64 = 0.1;
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
-/// Motions that are kept, the best of them: to be made faster where time is what counts.
+/// Motions that are kept, the best of them: to be made better.
 const SHAPED: usize = 3;
 
 /// The plan of `planner` that the best, or the first, of the candidates makes.
@@ -51,7 +46,12 @@ pub(super) fn accepted(
             }
         };
         let trajectory = &made.trajectory;
-        if let Some(mismatch) = mismatched(problem, trajectory) {
+        // One that is to be shaped takes as long as was asked for in the end.
+        let mismatch = match made.is_ours && shapes(problem) {
+            true => mismatch(scene, problem.task, trajectory.motion(), &trajectory.verdict().posture_changes),
+            false => mismatched(problem, trajectory),
+        };
+        if let Some(mismatch) = mismatch {
             refused = PlanError::Mismatch { planner: planner.to_owned(), mismatch };
             continue;
         }
@@ -63,7 +63,10 @@ pub(super) fn accepted(
             break;
         }
     }
-    let (cost, made) = fastest_of(problem, ranked)?.ok_or(refused)?;
+    let (cost, made) = best_of(problem, ranked, lower_bound)?.ok_or(refused)?;
+    if let Some(mismatch) = mismatched(problem, &made.trajectory) {
+        return Err(PlanError::Mismatch { planner: planner.to_owned(), mismatch });
+    }
     let Made { trajectory, joint_path, path_cost, vias, .. } = made;
     let record = PlanRecord {
         cost,
@@ -76,6 +79,7 @@ pub(super) fn accepted(
         stops: trajectory.motion().stops(),
         assumed_limits: kept(&problem.assumed_limits, &trajectory),
         effort: found.effort,
+        clearance: 0.0,
     };
     Ok(Plan::new(record, trajectory))
 }
@@ -126,31 +130,14 @@ fn along(
 fn smoothed(
     problem: &Problem<'_>,
     planner: &str,
-    PathToFollow { path, tolerance, may_stop, .. }: &PathToFollow,
+    PathToFollow { path, tolerance, .. }: &PathToFollow,
 ) -> Result<Smoothed, PlanError> {
-    let (scene, pace) = (problem.scene, problem.settings.pace);
+    let scene = problem.scene;
+    let pace = if shapes(problem) { Pace::Fastest } else { problem.settings.pace };
     let stated = stated_limits(scene.arm());
     let wanted = (pace, problem.endpoints.keep_posture);
-    let smooth = |style| smooth(scene, &path.0, &problem.limits, &stated, wanted, style, problem.monitor);
-    let smoothed = smooth(Style::Flowing { tolerance: *tolerance })
-        .map_err(|error: SmoothError| error.in_terms_of(planner, pace))?;
-    if !(*may_stop && is_worth_stopping(problem, path, &smoothed)) {
-        return Ok(smoothed);
-    }
-    // Closer to the path first, then on it with stops. Straight moves are refused only where the duration is too short for so many
-    // stops.
-    match smooth(Style::Flowing { tolerance: CLOSER * tolerance }) {
-        Ok(closer) if !is_worth_stopping(problem, path, &closer) => Ok(closer),
-        _ => Ok(smooth(Style::StopToStop).unwrap_or(smoothed)),
-    }
-}
-
-/// Whether the path itself, with a stop at each corner, costs so much less than the motion that it is worth them.
-fn is_worth_stopping(problem: &Problem<'_>, path: &JointPath, smoothed: &Smoothed) -> bool {
-    let (arm, objective) = (problem.scene.arm(), problem.settings.objective);
-    objective.of_path(arm, path).is_some_and(|own| {
-        own < (1.0 - WORTH_STOPPING) * objective.of_motion(arm, smoothed.trajectory.motion())
-    })
+    smooth(scene, &path.0, &problem.limits, &stated, wanted, *tolerance, problem.monitor)
+        .map_err(|error: SmoothError| error.in_terms_of(planner, pace))
 }
 
 /// The motion as it is.

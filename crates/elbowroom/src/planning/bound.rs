@@ -65,7 +65,7 @@ fn prove(
         match with_walls(scene, ends, measure, share * distance, &|| monitor.keep_going()) {
             Ok(OverJoints::Parted(reachable)) => {
                 let [starts, goals] = ends.pairs();
-                return Ok(Proved::NoPath(NoPath { reachable, starts, goals }));
+                return Ok(Proved::NoPath(NoPath { reachable, starts, goals, clearance: 0.0 }));
             }
             Ok(OverJoints::AtLeast(way)) => {
                 return Ok(Proved::AtLeast(if objective.is_in_workspace() {

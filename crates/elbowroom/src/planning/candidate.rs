@@ -29,8 +29,6 @@ pub(crate) struct PathToFollow {
     pub(crate) tip_travel: Option<f64>,
     /// How far the motion may stray from it before the verifier is asked, in grid steps.
     pub(crate) tolerance: f64,
-    /// Whether a motion that stops at the path's corners may be taken where it costs clearly less.
-    pub(crate) may_stop: bool,
 }
 
 impl Candidate {
@@ -62,7 +60,7 @@ impl Candidate {
 impl PathToFollow {
     /// To be followed closely.
     pub(crate) fn closely(path: JointPath) -> Self {
-        Self { path, tip_travel: None, tolerance: TOLERANCE, may_stop: false }
+        Self { path, tip_travel: None, tolerance: TOLERANCE }
     }
 
     /// Its tip travel (m).

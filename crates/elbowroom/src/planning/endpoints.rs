@@ -91,7 +91,8 @@ fn free_at(
         Err(TwoLinkError::Links { .. }) => {}
         Err(TwoLinkError::Moving { obstacle, name }) => return Err(PlanError::Moving { obstacle, name }),
     }
-    let not_free = |reasons| wrap(NotFree { place: place.clone(), reasons, nearest_free: None });
+    let not_free =
+        |reasons| wrap(NotFree { place: place.clone(), reasons, nearest_free: None, clearance: 0.0 });
     let tip = match place {
         Place::Configuration(q) => {
             return match reason_against(scene, q) {

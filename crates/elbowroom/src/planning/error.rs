@@ -154,6 +154,18 @@ pub enum PlanError {
         /// What was asked.
         gap: f64,
     },
+    /// The slack makes no sense.
+    #[error("slack is {slack}, it must be 0 or greater")]
+    Slack {
+        /// What was asked.
+        slack: f64,
+    },
+    /// The clearance makes no sense, or is more than links or obstacles can be thickened by.
+    #[error("{}", self.told(Units::SI))]
+    Clearance {
+        /// What was asked (m).
+        clearance: f64,
+    },
     /// A fault of ours: the motion costs less than what was proved to be the least.
     #[error(
         "the motion costs {cost}, less than the {bound} that was proved to be the least: one of the two is wrong"
@@ -221,6 +233,18 @@ fn links_in_words(least: usize, most: usize) -> String {
     }
 }
 
+impl PlanError {
+    /// The same where `clearance` (m) was asked for, and contact is all that comes nearer.
+    pub(super) fn within(self, clearance: f64) -> Self {
+        match self {
+            Self::Start(refused) => Self::Start(NotFree { clearance, ..refused }),
+            Self::Goal(refused) => Self::Goal(NotFree { clearance, ..refused }),
+            Self::NoPath(proof) => Self::NoPath(NoPath { clearance, ..proof }),
+            other => other,
+        }
+    }
+}
+
 impl Told for PlanError {
     fn told(&self, units: Units) -> String {
         match self {
@@ -257,6 +281,11 @@ impl Told for PlanError {
                 )
             }
             Self::Mismatch { planner, mismatch } => format!("planner {planner}: {}", mismatch.told(units)),
+            &Self::Clearance { clearance } => format!(
+                "clearance is {}, it must be 0 or greater, and neither links nor obstacles become too thick by it",
+                units.stated_length(clearance)
+            ),
+            Self::NoPath(proof) => proof.told(units),
             other => other.to_string(),
         }
     }

@@ -2,6 +2,7 @@
 
 use crate::arm::{Arm, Configuration, joint_distance, lerp};
 use crate::mesh::Measure;
+use crate::optimise::Length;
 use crate::path::JointPath;
 use crate::trajectory::{Motion, SpeedLimits, fastest_durations, vias_at};
 
@@ -64,12 +65,11 @@ impl Objective {
         }
     }
 
-    /// What straight moves along `path` cost (m or rad), stops at its corners included; `None` for time, which the path does not
-    /// tell.
-    pub fn of_path(self, arm: &Arm, path: &JointPath) -> Option<f64> {
+    /// The length that counts, if one does.
+    pub(crate) const fn length(self) -> Option<Length> {
         match self {
-            Self::Tip => Some(path.tip_travel(arm)),
-            Self::Joint => Some(path.length()),
+            Self::Tip => Some(Length::Tip),
+            Self::Joint => Some(Length::Joint),
             Self::Time => None,
         }
     }

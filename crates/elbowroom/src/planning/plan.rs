@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use super::{AssumedLimit, Effort, Mismatch, Objective, PlanError, mismatch};
+use super::{AssumedLimit, Effort, Mismatch, Objective, PlanError, Problem, mismatch};
 use crate::path::{JointPath, TipPath};
 use crate::scene::{Scene, Task};
 use crate::trajectory::Motion;
@@ -45,6 +45,8 @@ pub struct PlanRecord {
     pub assumed_limits: Vec<AssumedLimit>,
     /// What the search took, for planners that count it.
     pub effort: Option<Effort>,
+    /// The clearance that was asked for, and is proved to be kept (m).
+    pub clearance: f64,
 }
 
 /// Why what was kept is no plan.
@@ -102,7 +104,7 @@ impl Plan {
             return Err(RecordError::Path { joints });
         }
         let trajectory =
-            Trajectory::certify(scene, motion, &VerifySettings::default()).map_err(RecordError::Refused)?;
+            Trajectory::certify(scene, motion, &keeping(record.clearance)).map_err(RecordError::Refused)?;
         if let Some(mismatch) =
             mismatch(scene, task, trajectory.motion(), &trajectory.verdict().posture_changes)
         {
@@ -124,6 +126,27 @@ impl Plan {
     pub(super) fn with_lower_bound(mut self, lower_bound: Option<f64>) -> Self {
         self.record.lower_bound = lower_bound;
         self
+    }
+
+    /// The same plan in `scene`, where it was made in [`Scene::with_clearance`] of it: judged anew, with `clearance` (m) as the margin.
+    ///
+    /// # Errors
+    /// [`PlanError::Refused`], [`PlanError::Stopped`]
+    pub(super) fn with_clearance(
+        self,
+        problem: &Problem<'_>,
+        scene: &Scene,
+        planner: &str,
+        clearance: f64,
+    ) -> Result<Self, PlanError> {
+        let keep_going = || problem.monitor.keep_going();
+        let motion = self.trajectory.motion().clone();
+        let judged = Trajectory::certify_until(scene, motion, &keeping(clearance), &keep_going);
+        let trajectory = judged.map_err(|verdict| match problem.go_on() {
+            Ok(()) => PlanError::Refused { planner: planner.to_owned(), verdict },
+            Err(stopped) => stopped,
+        })?;
+        Ok(Self { record: PlanRecord { clearance, ..self.record }, trajectory })
     }
 
     /// The motion, with the verifier's verdict.
@@ -161,6 +184,11 @@ impl Plan {
     pub fn effort(&self) -> Option<&Effort> {
         self.record.effort.as_ref()
     }
+}
+
+/// What is asked of a motion that keeps `clearance` (m).
+fn keeping(clearance: f64) -> VerifySettings {
+    VerifySettings { margin: clearance, ..VerifySettings::default() }
 }
 
 /// Refuses a `cost` below what was proved to be the least: one of the two is wrong.

@@ -11,7 +11,7 @@ pub enum Pace {
 }
 
 /// How a task is planned, whatever the planner.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanSettings {
     /// What the choice among paths goes by.
     pub objective: Objective,
@@ -22,6 +22,26 @@ pub struct PlanSettings {
     /// How far the cost may be above the lower bound, as a share of it, before a planner that searches in rounds stops trying
     /// to do better.
     pub gap: Option<f64>,
+    /// How much longer than the shortest a motion may be to be faster, as a share, where tip or joint travel counts.
+    pub slack: f64,
+    /// The clearance that the motion keeps (m); `None` for that of its task.
+    pub clearance: Option<f64>,
+}
+
+/// How much longer than the shortest a motion may be to be faster, where nothing else is asked, as a share.
+pub const SLACK: f64 = 0.005;
+
+impl Default for PlanSettings {
+    fn default() -> Self {
+        Self {
+            objective: Objective::default(),
+            pace: Pace::default(),
+            seed: 0,
+            gap: None,
+            slack: SLACK,
+            clearance: None,
+        }
+    }
 }
 
 impl PlanSettings {
@@ -29,6 +49,9 @@ impl PlanSettings {
     pub(super) fn check(&self) -> Result<(), PlanError> {
         if let Some(gap) = self.gap.filter(|gap| gap.is_nan() || *gap < 0.0) {
             return Err(PlanError::Gap { gap });
+        }
+        if !(self.slack >= 0.0 && self.slack.is_finite()) {
+            return Err(PlanError::Slack { slack: self.slack });
         }
         match self.pace {
             Pace::Duration(duration) if !is_duration(duration) => Err(PlanError::Duration { duration }),

@@ -34,14 +34,25 @@ pub fn plan(
         let (least, most) = served.into_inner();
         return Err(PlanError::OtherArm { planner: planner.name().to_owned(), least, most, links });
     }
-    let problem = Problem::new(scene, task, settings, monitor)?;
+    let clearance = settings.clearance.unwrap_or(task.clearance);
+    if clearance == 0.0 {
+        return solved(&Problem::new(scene, task, settings, monitor)?, planner);
+    }
+    let thicker = scene.with_clearance(clearance).ok_or(PlanError::Clearance { clearance })?;
+    let problem = Problem::new(&thicker, task, settings, monitor).map_err(|error| error.within(clearance))?;
+    let plan = solved(&problem, planner).map_err(|error| error.within(clearance))?;
+    plan.with_clearance(&problem, scene, planner.name(), clearance)
+}
+
+/// What the planner makes of the problem, if the arm is not there already.
+fn solved(problem: &Problem<'_>, planner: &dyn Planner) -> Result<Plan, PlanError> {
     if let Some(q) = problem.endpoints.already_there() {
         let stay = PathToFollow::closely(JointPath(vec![q.clone()]));
         let stay = Found::new(vec![Candidate::certified(stay)], Pick::First);
         let effort = planner.budget().map(|_| Effort::default());
-        return accepted(&problem, planner.name(), Found { effort, ..stay }, Some(0.0));
+        return accepted(problem, planner.name(), Found { effort, ..stay }, Some(0.0));
     }
-    searched(&problem, planner)
+    searched(problem, planner)
 }
 
 /// What the planner finds, in one round or, until the gap asked for is reached, several.

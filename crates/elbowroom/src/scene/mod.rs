@@ -1,5 +1,6 @@
 //! What is asked: an arm among obstacles, the grid of its map, and the tasks.
 
+mod clearance;
 mod file;
 mod model;
 mod motion;

@@ -55,6 +55,12 @@ pub enum SceneProblem {
         /// How many joints the arm has.
         links: usize,
     },
+    /// A clearance that is none.
+    #[error("task '{}': its clearance must be 0 or greater", task.escape_debug())]
+    Clearance {
+        /// Whose.
+        task: String,
+    },
     /// A start or goal that is no place.
     #[error(
         "task '{}': start and goal must be finite, tips within {GREATEST_COORDINATE:e} m, angles within {GREATEST_ANGLE:e} rad",
@@ -92,6 +98,9 @@ pub(super) fn first(arm: &Arm, obstacles: &[Obstacle], tasks: &[Task]) -> Option
                 }
                 _ => {}
             }
+        }
+        if !(0.0..f64::INFINITY).contains(&task.clearance) {
+            return Some(SceneProblem::Clearance { task: task.name.clone() });
         }
         (!(is_place(start) && is_place(goal))).then(|| SceneProblem::Place { task: task.name.clone() })
     })

@@ -35,4 +35,6 @@ pub struct Task {
     pub goal: Place,
     /// Which postures will do.
     pub posture: TaskPosture,
+    /// The clearance that every motion of it has to keep (m): 0 if only contact is forbidden.
+    pub clearance: f64,
 }

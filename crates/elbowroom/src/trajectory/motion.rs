@@ -150,6 +150,26 @@ impl Motion {
         Some(Self { pieces })
     }
 
+    /// The same motion in so many `seconds`, evenly slower or faster.
+    ///
+    /// # Errors
+    /// [`MotionError`] where numbers overflow.
+    pub fn lasting(&self, seconds: f64) -> Result<Self, MotionError> {
+        let factor = seconds / self.duration();
+        let slowed = |piece: &Piece| {
+            let mut power = 1.0;
+            let mut of = piece.clone();
+            of.start = self.start() + (piece.start - self.start()) * factor;
+            of.duration *= factor;
+            for order in 1..6 {
+                power /= factor;
+                of.coefficients.iter_mut().for_each(|terms| terms[order] *= power);
+            }
+            of
+        };
+        Self::new(self.pieces.iter().map(slowed).collect())
+    }
+
     /// This motion and then `next`, which begins where and when it ends.
     ///
     /// # Errors

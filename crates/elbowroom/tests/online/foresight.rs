@@ -94,6 +94,7 @@ fn the_arm_sees_that_the_way_will_be_free() {
         start: Place::Configuration(start.into()),
         goal: Place::Configuration(goal.into()),
         posture: TaskPosture::Any,
+        clearance: 0.0,
     };
     let now = scene.with_obstacles(World::new(scene.clone()).obstacles()).unwrap();
     let mut roadmap = Roadmap::new(now, &task).unwrap();

@@ -70,7 +70,7 @@ pub(crate) fn tip(x: f64, y: f64) -> Place {
 }
 
 pub(crate) fn task(name: &str, start: Place, goal: Place, posture: TaskPosture) -> Task {
-    Task { name: name.to_owned(), start, goal, posture }
+    Task { name: name.to_owned(), start, goal, posture, clearance: 0.0 }
 }
 
 /// The paper's arm with its tasks `first` and `second`, among circles of 5 cm; joint 2 within `bend` (rad).

@@ -172,5 +172,5 @@ pub(crate) fn world(seed: u64) -> Option<Scene> {
         _ => TaskPosture::Any,
     };
     let [start, goal] = <[Place; 2]>::try_from(ends).ok()?;
-    scene.with_tasks(vec![Task { name: "task".to_owned(), start, goal, posture }]).ok()
+    scene.with_tasks(vec![Task { name: "task".to_owned(), start, goal, posture, clearance: 0.0 }]).ok()
 }

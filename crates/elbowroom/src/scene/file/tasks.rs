@@ -7,7 +7,7 @@ use crate::scene::problem::{GREATEST_ANGLE, MOST_TASKS};
 use crate::scene::{Place, SceneProblem, Task, TaskPosture};
 use crate::units::Units;
 
-pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture"] };
+pub(super) const TASK: Keys = Keys { required: &["start", "goal"], optional: &["posture", "clearance"] };
 pub(super) const PLACE: Keys = Keys { required: &["q"], optional: &[] };
 
 /// The tasks, and where each has its start and goal.
@@ -38,10 +38,22 @@ pub(super) fn read(value: &Value<'_>, units: Units, joints: usize) -> Result<Tas
             start: place(&start, units, joints)?,
             goal: place(&goal, units, joints)?,
             posture,
+            clearance: match map.optional("clearance") {
+                Some(value) => clearance(&value, units)?,
+                None => 0.0,
+            },
         });
         ends.insert(name.to_owned(), [start.at(), goal.at()]);
     }
     Ok((tasks, ends))
+}
+
+fn clearance(value: &Value<'_>, units: Units) -> Result<f64, Fault> {
+    let clearance = value.length(units)?;
+    if clearance < 0.0 {
+        return Err(value.out_of_range("0 or greater".to_owned()));
+    }
+    Ok(clearance)
 }
 
 fn place(value: &Value<'_>, units: Units, joints: usize) -> Result<Place, Fault> {
