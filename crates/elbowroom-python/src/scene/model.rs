@@ -15,6 +15,7 @@ use super::part::{Keywords, NewArgs, Part, each_of_class, keywords_of, made, of_
 use super::source::{self, Source};
 use super::task::Task;
 use super::units::Units;
+use crate::argument::text;
 use crate::errors;
 use crate::once::Once;
 
@@ -208,7 +209,7 @@ impl Scene {
     /// Raises:
     ///     SceneError: There is no such scene; the message lists those there are.
     #[staticmethod]
-    fn example<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, Self>> {
+    fn example<'py>(py: Python<'py>, #[pyo3(from_py_with = text)] name: &str) -> PyResult<Bound<'py, Self>> {
         Self::read(py, &source::example_text(py, name)?, &format!("scenes/{name}.yaml"))
     }
 
@@ -218,7 +219,11 @@ impl Scene {
     ///     SceneError: The text is no scene; with file, line, column and key.
     #[staticmethod]
     #[pyo3(signature = (text, *, file="scene"))]
-    fn parse<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Bound<'py, Self>> {
+    fn parse<'py>(
+        py: Python<'py>,
+        #[pyo3(from_py_with = text)] text: &str,
+        #[pyo3(from_py_with = text)] file: &str,
+    ) -> PyResult<Bound<'py, Self>> {
         Self::read(py, text, file)
     }
 
