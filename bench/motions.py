@@ -1,4 +1,4 @@
-"""How long motions take, by objective, and what a clearance costs: writes the tables and the picture of docs/motions.md."""
+"""How long motions take, and what a clearance costs: writes the tables and the picture of docs/motions.md."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ TASKS: tuple[tuple[str, str, float], ...] = (
     ("narrow", "first", 3.279),
     ("narrow", "second", 2.997),
 )
-"""Scene, task, and the shortest duration that is known (s): by direct collocation with IPOPT from many starts, or by ours."""
+"""Scene, task, and the shortest duration that is known (s), by collocation with IPOPT from many starts, or by ours."""
 
 CLEARANCES = (0.0, 0.002, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05)
 """What is asked for (m)."""
@@ -31,8 +31,8 @@ WEIGHED = (("abb-irb-910sc-065", "place"), ("narrow", "second"))
 def durations(tasks: Sequence[tuple[str, str, float]]) -> list[str]:
     """Return the table of durations by objective."""
     rows = [
-        "| scene | task | shortest known (s) | `time` (s) | `tip` (s) | tip travel (m) | `tip`, no slack (s) | `joint` (s) "
-        "| joint travel (rad) |",
+        "| scene | task | shortest known (s) | `time` (s) | `tip` (s) | tip travel (m) | `tip`, no slack (s) "
+        "| `joint` (s) | joint travel (rad) |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for name, task, best in tasks:
@@ -76,7 +76,9 @@ def drawn(out: Path) -> None:
     figure, axes = plt.subplots(figsize=(6.4, 4.0), layout="constrained")
     for (name, task), marker in zip(WEIGHED, ("o", "s"), strict=True):
         curve = kept(name, task, CLEARANCES)
-        axes.plot([1e3 * asked for asked, _, _ in curve], [d for _, _, d in curve], marker=marker, label=f"{name}, {task}")
+        axes.plot(
+            [1e3 * asked for asked, _, _ in curve], [d for _, _, d in curve], marker=marker, label=f"{name}, {task}"
+        )
     axes.set_xlabel("clearance asked for (mm)")
     axes.set_ylabel("duration (s)")
     axes.set_ylim(bottom=0.0)

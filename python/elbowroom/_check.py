@@ -14,7 +14,7 @@ from elbowroom import _core
 from elbowroom._arrays import real_array
 from elbowroom._core import Check
 from elbowroom._errors import BadSetting, TrajectoryError
-from elbowroom._scene import Scene
+from elbowroom._scene import Scene, need_scene
 from elbowroom._trajectory_files import Message, read_messages
 from elbowroom._trajectory_samples import TrajectorySamples
 from elbowroom._whole import is_whole
@@ -66,6 +66,7 @@ def check(
         >>> bool(er.check(scene, t=[0.0, 5.0], q=[[0.0, 0.0], [1.5, 0.0]]))
         False
     """
+    need_scene(scene)
     times = real_array("t", t, dimensions=1, shape="(n,)")
     rows = [
         None if values is None else real_array(name, values, dimensions=2, shape="(n, joints)")
@@ -257,6 +258,7 @@ def check_file(
 
 def _found(scene: Scene, path: str | Path, joints: Sequence[str] | None) -> list[Message]:
     """The messages of the file, to be read with these names of joints."""
+    need_scene(scene)
     if joints is not None:
         if twice := next((name for i, name in enumerate(joints) if name in joints[:i]), None):
             raise BadSetting(

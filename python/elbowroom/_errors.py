@@ -23,6 +23,27 @@ class ElbowroomError(Exception):
         return _restored, (type(self), {field.name: getattr(self, field.name) for field in fields(self)})
 
 
+class WrongType(TypeError):
+    """An argument is of the wrong type: a ``TypeError``, to the reader and when it is pickled.
+
+    The extension says what was given and what is needed; the argument's name comes as a note, and goes before that.
+    """
+
+    def add_note(self, note: str, /) -> None:
+        """Take the name of the argument out of ``note``."""
+        before, _, name = note.partition("while processing ")
+        if before or not name:
+            super().add_note(note)
+        else:
+            self.args = (f"{name.strip(chr(39))} {self.args[0]}",)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return TypeError, self.args
+
+
+WrongType.__module__, WrongType.__name__, WrongType.__qualname__ = "builtins", "TypeError", "TypeError"
+
+
 def _restored(kind: type[ElbowroomError], said: dict[str, Any]) -> ElbowroomError:
     return kind(**said)
 

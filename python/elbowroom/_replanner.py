@@ -17,7 +17,7 @@ from elbowroom._errors import BadSetting, NotFree
 from elbowroom._known import Known, all_known
 from elbowroom._plan import located
 from elbowroom._samples import Floats, Samples, sampled
-from elbowroom._scene import Scene
+from elbowroom._scene import Scene, need_scene
 from elbowroom._whole import check_whole
 from elbowroom._world import joint_values
 
@@ -88,6 +88,7 @@ class Replanner:
 
     def __init__(self, scene: Scene, *, task: str | None = None, seed: int = 0, q: ArrayLike | None = None) -> None:
         check_whole("seed", seed)
+        need_scene(scene)
         if len(scene.arm.links) != 2:
             raise BadSetting(
                 "planning while the arm moves needs an arm of 2 links; the arm of this scene has "

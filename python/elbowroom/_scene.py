@@ -50,6 +50,12 @@ LARGEST_FILE = 4
 """Largest scene file that is read (MiB)."""
 
 
+def need_scene(scene: object) -> None:
+    """Raise a ``TypeError`` unless ``scene`` is one, as the extension does where it is asked first."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene is {scene!r}; Scene is needed")
+
+
 def text_of(path: str | Path) -> str:
     """Return the text of the scene file at ``path``.
 

@@ -7,6 +7,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
+use crate::argument::argument;
 use crate::errors;
 use crate::motion::Motion;
 use crate::scene::Scene;
@@ -245,13 +246,13 @@ pub(crate) fn interpolated(
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn verify(
     py: Python<'_>,
-    scene: Py<Scene>,
+    #[pyo3(from_py_with = argument)] scene: Py<Scene>,
     motion: Py<Motion>,
     curve: String,
     margin: f64,
     at_rest: Option<(String, String)>,
     lead: f64,
-    timeout: Option<f64>,
+    #[pyo3(from_py_with = argument)] timeout: Option<f64>,
 ) -> PyResult<Check> {
     let terms = Terms::read(py, &(curve, margin, at_rest, lead))?;
     let verdict = judged(py, &scene, motion.get(), terms, timeout)?;

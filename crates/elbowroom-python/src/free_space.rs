@@ -6,6 +6,7 @@ use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::argument;
 use crate::errors;
 use crate::scene::Scene;
 use crate::watch;
@@ -76,7 +77,11 @@ impl FreeSpace {
 /// Return the free-space maps of ``scene``.
 #[pyfunction]
 #[pyo3(signature = (scene, *, timeout=None))]
-pub(crate) fn free_space(py: Python<'_>, scene: Py<Scene>, timeout: Option<f64>) -> PyResult<FreeSpace> {
+pub(crate) fn free_space(
+    py: Python<'_>,
+    #[pyo3(from_py_with = argument)] scene: Py<Scene>,
+    #[pyo3(from_py_with = argument)] timeout: Option<f64>,
+) -> PyResult<FreeSpace> {
     let two_link = scene.get().two_link(py, "a map per posture")?;
     let (found, _) = watch::run(py, timeout, None, |watch| {
         let space = elbowroom::free_space::FreeSpace::of_until(two_link, &|| watch.keep_going())?;

@@ -1,6 +1,7 @@
 //! Border between the core and Python: conversion and error mapping, nothing else. The GIL is released while the
 //! core works, Ctrl-C stops it, and no panic gets across as one.
 
+mod argument;
 mod check;
 mod errors;
 mod fault;

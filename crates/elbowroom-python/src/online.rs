@@ -15,6 +15,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyList;
 
+use crate::argument::{argument, text};
 use crate::errors;
 use crate::motion::Motion;
 use crate::scene::{ObstacleMotion, Scene};
@@ -46,11 +47,12 @@ impl Replanner {
     #[pyo3(signature = (scene, task, *, seed, q=None))]
     fn new(
         py: Python<'_>,
-        scene: &Scene,
-        task: &str,
-        seed: u64,
+        #[pyo3(from_py_with = argument)] scene: Py<Scene>,
+        #[pyo3(from_py_with = text)] task: &str,
+        #[pyo3(from_py_with = argument)] seed: u64,
         q: Option<PyReadonlyArray1<'_, f64>>,
     ) -> PyResult<Self> {
+        let scene = scene.get();
         let asked = scene.task(py, task)?;
         scene.check_links(py, WHAT)?;
         if asked.clearance > 0.0 {
@@ -105,11 +107,11 @@ impl Replanner {
         py: Python<'py>,
         scene: &Scene,
         known: Vec<(usize, Option<KnownPart<'py>>)>,
-        now: f64,
+        #[pyo3(from_py_with = argument)] now: f64,
         q: PyReadonlyArray1<'py, f64>,
         v: PyReadonlyArray1<'py, f64>,
         a: PyReadonlyArray1<'py, f64>,
-        deadline: Option<f64>,
+        #[pyo3(from_py_with = argument)] deadline: Option<f64>,
     ) -> PyResult<Update> {
         let known = known
             .into_iter()
@@ -153,7 +155,8 @@ impl World {
     /// Raises:
     ///     BadSetting: The arm has more than two links.
     #[new]
-    fn new(py: Python<'_>, scene: &Scene) -> PyResult<Self> {
+    fn new(py: Python<'_>, #[pyo3(from_py_with = argument)] scene: Py<Scene>) -> PyResult<Self> {
+        let scene = scene.get();
         scene.check_links(py, "a world in time")?;
         Ok(Self(online::World::new(scene.scene.clone())))
     }
@@ -166,7 +169,12 @@ impl World {
 
     /// Let time go on to ``now`` (s) while the arm is at ``q`` (rad).
     #[pyo3(signature = (now, *, q))]
-    fn advance(&mut self, py: Python<'_>, now: f64, q: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
+    fn advance(
+        &mut self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = argument)] now: f64,
+        q: PyReadonlyArray1<'_, f64>,
+    ) -> PyResult<()> {
         self.0.advance(now, &pair(py, "q", &q)?);
         Ok(())
     }

@@ -9,6 +9,7 @@ use numpy::{IntoPyArray, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::{argument, text};
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Question, Setting, every, in_order, within};
@@ -207,14 +208,14 @@ impl PaperPlan {
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan_as_in_paper(
     py: Python<'_>,
-    scene: Py<Scene>,
-    task: &str,
-    swarm: bool,
-    seed: u64,
-    vias: usize,
-    duration: f64,
-    candidates: usize,
-    timeout: Option<f64>,
+    #[pyo3(from_py_with = argument)] scene: Py<Scene>,
+    #[pyo3(from_py_with = text)] task: &str,
+    #[pyo3(from_py_with = argument)] swarm: bool,
+    #[pyo3(from_py_with = argument)] seed: u64,
+    #[pyo3(from_py_with = argument)] vias: usize,
+    #[pyo3(from_py_with = argument)] duration: f64,
+    #[pyo3(from_py_with = argument)] candidates: usize,
+    #[pyo3(from_py_with = argument)] timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PaperPlan> {
     let core = scene.get();

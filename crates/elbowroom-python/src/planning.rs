@@ -6,6 +6,7 @@ use elbowroom::units::Told;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::argument::{argument, text};
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
@@ -54,9 +55,14 @@ pub(crate) fn default_planner(scene: &Scene) -> String {
 ///     UnknownTask: The scene has no such task, or not exactly one.
 #[pyfunction]
 #[pyo3(signature = (scene, task=None))]
-pub(crate) fn only_task(py: Python<'_>, scene: &Scene, task: Option<&str>) -> PyResult<String> {
+pub(crate) fn only_task(
+    py: Python<'_>,
+    #[pyo3(from_py_with = argument)] scene: Py<Scene>,
+    #[pyo3(from_py_with = argument)] task: Option<String>,
+) -> PyResult<String> {
+    let scene = scene.get();
     match (task, scene.scene.tasks()) {
-        (Some(name), _) => scene.task(py, name).map(|task| task.name.clone()),
+        (Some(name), _) => scene.task(py, &name).map(|task| task.name.clone()),
         (None, [only]) => Ok(only.name.clone()),
         (None, tasks) => {
             let known = tasks.iter().map(|task| task.name.clone()).collect();
@@ -109,17 +115,17 @@ fn by_name(py: Python<'_>, planner: &str, options: Vec<(String, OptionPart)>) ->
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn plan(
     py: Python<'_>,
-    scene: Py<Scene>,
-    task: &str,
+    #[pyo3(from_py_with = argument)] scene: Py<Scene>,
+    #[pyo3(from_py_with = text)] task: &str,
     planner: &str,
-    objective: &str,
-    seed: u64,
+    #[pyo3(from_py_with = text)] objective: &str,
+    #[pyo3(from_py_with = argument)] seed: u64,
     options: Vec<(String, OptionPart)>,
-    duration: Option<f64>,
-    gap: Option<f64>,
-    slack: Option<f64>,
-    clearance: Option<f64>,
-    timeout: Option<f64>,
+    #[pyo3(from_py_with = argument)] duration: Option<f64>,
+    #[pyo3(from_py_with = argument)] gap: Option<f64>,
+    #[pyo3(from_py_with = argument)] slack: Option<f64>,
+    #[pyo3(from_py_with = argument)] clearance: Option<f64>,
+    #[pyo3(from_py_with = argument)] timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {
     let core = scene.get();

@@ -8,6 +8,7 @@ use elbowroom::planning::{
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
+use crate::argument::argument;
 use crate::errors;
 use crate::motion::Motion;
 use crate::plan::{Plan, Question, Setting};
@@ -61,8 +62,8 @@ pub(crate) fn plan_proposed(
     convergence: Option<Vec<(usize, f64)>>,
     timings: Vec<(String, f64)>,
     duration: Option<f64>,
-    slack: Option<f64>,
-    clearance: Option<f64>,
+    #[pyo3(from_py_with = argument)] slack: Option<f64>,
+    #[pyo3(from_py_with = argument)] clearance: Option<f64>,
     timeout: Option<f64>,
     on_stage: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Plan> {

@@ -1,7 +1,5 @@
 //! Motions that keep a clearance that was asked for, and proofs that none does.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot be set up may panic")]
-
 #[path = "worlds/build.rs"]
 #[expect(dead_code, reason = "shared between tests")]
 mod build;
@@ -53,7 +51,10 @@ fn motions_keep_the_clearance_that_was_asked_for() {
                         assert!(found > clearance, "seed {seed}, {}: {found}", planner.name());
                         let told =
                             plan.trajectory().verdict().least_clearance.map_or(found, |at| at.distance);
-                        assert!(told > clearance && (told - found).abs() < 1e-4, "{told} {found}");
+                        assert!(
+                            told > clearance && (told == found || (told - found).abs() < 1e-4),
+                            "{told} {found}"
+                        );
                         assert_eq!(plan.record().clearance, clearance);
                         assert!(plan.lower_bound().is_none_or(|bound| bound <= plan.cost()));
                         kept += 1;

@@ -10,6 +10,8 @@ mod distance;
 #[path = "online/foresight.rs"]
 mod foresight;
 mod judge;
+#[path = "online/kept.rs"]
+mod kept;
 #[path = "online/known.rs"]
 mod known;
 #[path = "online/moves.rs"]

@@ -114,7 +114,10 @@ ROUNDING = 1e-6
 
 
 def _verified(scene: Scene, answer: Plan | Proposal, margin: float) -> Check:
-    """What the verifier says of ``answer`` in ``scene`` with a clearance of ``margin`` (m), whatever it says of itself: a plan may be of another scene."""
+    """What the verifier says of ``answer`` in ``scene`` with ``margin`` (m) to keep, whatever it says of itself.
+
+    A plan may be of another scene.
+    """
     if isinstance(answer, Plan):
         return verify(scene, answer.motion, curve="quintic", margin=margin)
     t, q, v, a = rows_of(answer)

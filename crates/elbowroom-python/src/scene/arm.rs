@@ -3,6 +3,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::part::{Keywords, NewArgs, Part, each_of_class, hash_of, made, number, pair, point};
+use crate::argument::argument;
 use crate::errors;
 use crate::once::Once;
 
@@ -30,12 +31,12 @@ impl Joint {
     #[pyo3(signature = (*, continuous=false, min=None, max=None, velocity=None, acceleration=None, jerk=None))]
     fn new(
         py: Python<'_>,
-        continuous: bool,
-        min: Option<f64>,
-        max: Option<f64>,
-        velocity: Option<f64>,
-        acceleration: Option<f64>,
-        jerk: Option<f64>,
+        #[pyo3(from_py_with = argument)] continuous: bool,
+        #[pyo3(from_py_with = argument)] min: Option<f64>,
+        #[pyo3(from_py_with = argument)] max: Option<f64>,
+        #[pyo3(from_py_with = argument)] velocity: Option<f64>,
+        #[pyo3(from_py_with = argument)] acceleration: Option<f64>,
+        #[pyo3(from_py_with = argument)] jerk: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let limits = match (continuous, min, max) {
             (true, None, None) => JointLimits::Continuous,
@@ -152,11 +153,11 @@ impl Arm {
     #[pyo3(signature = (*, links, joints, half_width=0.0, base=[0.0, 0.0], self_collision=false))]
     fn new(
         py: Python<'_>,
-        links: Vec<f64>,
+        #[pyo3(from_py_with = argument)] links: Vec<f64>,
         joints: &Bound<'_, PyAny>,
-        half_width: f64,
-        base: [f64; 2],
-        self_collision: bool,
+        #[pyo3(from_py_with = argument)] half_width: f64,
+        #[pyo3(from_py_with = argument)] base: [f64; 2],
+        #[pyo3(from_py_with = argument)] self_collision: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
         let joints = each_of_class::<Joint>(joints, "joints")?;
         let joints = joints.iter().map(|joint| joint.get().joint).collect();

@@ -2,6 +2,7 @@ use elbowroom::grid;
 use pyo3::prelude::*;
 
 use super::part::{Keywords, NewArgs, Part, hash_of, made, number};
+use crate::argument::argument;
 use crate::errors;
 
 /// The points of the free-space map. Grids are equal if their points are.
@@ -50,7 +51,12 @@ impl Grid {
 impl Grid {
     #[new]
     #[pyo3(signature = (*, x, y, step))]
-    fn new(py: Python<'_>, x: [f64; 2], y: [f64; 2], step: f64) -> PyResult<PyClassInitializer<Self>> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = argument)] x: [f64; 2],
+        #[pyo3(from_py_with = argument)] y: [f64; 2],
+        #[pyo3(from_py_with = argument)] step: f64,
+    ) -> PyResult<PyClassInitializer<Self>> {
         let ranges = [x.map(number), y.map(number)];
         grid::Grid::new(x, y, step)
             .map(|grid| made(Self { grid, ranges }))

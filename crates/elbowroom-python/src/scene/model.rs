@@ -17,6 +17,7 @@ use super::part::{Keywords, NewArgs, Part, each_of_class, keywords_of, made, of_
 use super::source::{self, Source};
 use super::task::Task;
 use super::units::Units;
+use crate::argument::{argument, text};
 use crate::errors;
 use crate::once::Once;
 
@@ -210,7 +211,7 @@ impl Scene {
     /// Raises:
     ///     SceneError: There is no such scene; the message lists those there are.
     #[staticmethod]
-    fn example<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, Self>> {
+    fn example<'py>(py: Python<'py>, #[pyo3(from_py_with = text)] name: &str) -> PyResult<Bound<'py, Self>> {
         Self::read(py, &source::example_text(py, name)?, &format!("scenes/{name}.yaml"))
     }
 
@@ -220,7 +221,11 @@ impl Scene {
     ///     SceneError: The text is no scene; with file, line, column and key.
     #[staticmethod]
     #[pyo3(signature = (text, *, file="scene"))]
-    fn parse<'py>(py: Python<'py>, text: &str, file: &str) -> PyResult<Bound<'py, Self>> {
+    fn parse<'py>(
+        py: Python<'py>,
+        #[pyo3(from_py_with = text)] text: &str,
+        #[pyo3(from_py_with = text)] file: &str,
+    ) -> PyResult<Bound<'py, Self>> {
         Self::read(py, text, file)
     }
 
@@ -281,7 +286,11 @@ impl Scene {
     ///
     /// Raises:
     ///     BadSetting: The clearance is less than 0, or more than arm or obstacles can be thickened by.
-    fn with_clearance<'py>(&self, py: Python<'py>, clearance: f64) -> PyResult<Bound<'py, Self>> {
+    fn with_clearance<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = argument)] clearance: f64,
+    ) -> PyResult<Bound<'py, Self>> {
         let thicker = self.scene.with_clearance(clearance).ok_or_else(|| {
             let error = PlanError::Clearance { clearance };
             errors::setting(py, "clearance", &error.told(self.units()))

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::part::{Keywords, NewArgs, Part, hash_of, made, number};
+use crate::argument::argument;
 use crate::errors;
 
 /// How an obstacle moves, without turning: by waypoints, at one velocity, or after the arm's tip.
@@ -45,14 +46,14 @@ impl ObstacleMotion {
     #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
     fn new(
         py: Python<'_>,
-        waypoints: Option<Vec<(f64, [f64; 2])>>,
-        velocity: Option<[f64; 2]>,
-        start: f64,
-        chases: bool,
-        keep_off: f64,
-        greatest_speed: Option<f64>,
-        seen_from: Option<f64>,
-        sensing_radius: Option<f64>,
+        #[pyo3(from_py_with = argument)] waypoints: Option<Vec<(f64, [f64; 2])>>,
+        #[pyo3(from_py_with = argument)] velocity: Option<[f64; 2]>,
+        #[pyo3(from_py_with = argument)] start: f64,
+        #[pyo3(from_py_with = argument)] chases: bool,
+        #[pyo3(from_py_with = argument)] keep_off: f64,
+        #[pyo3(from_py_with = argument)] greatest_speed: Option<f64>,
+        #[pyo3(from_py_with = argument)] seen_from: Option<f64>,
+        #[pyo3(from_py_with = argument)] sensing_radius: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let refused = |message: &str| errors::part(py, "motion", message);
         let vector = |[x, y]: [f64; 2]| Vector::new(x, y);

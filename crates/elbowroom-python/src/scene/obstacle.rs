@@ -5,6 +5,7 @@ use pyo3::types::PyTuple;
 
 use super::motion::ObstacleMotion;
 use super::part::{Keywords, NewArgs, Part, hash_of, made, number, pair, point};
+use crate::argument::argument;
 use crate::errors;
 
 /// Something that the arm must not touch: a ``Circle``, ``Segment`` or ``Polygon``.
@@ -112,10 +113,10 @@ impl Circle {
     #[pyo3(signature = (*, center, radius, name=None, motion=None))]
     fn new(
         py: Python<'_>,
-        center: [f64; 2],
-        radius: f64,
-        name: Option<String>,
-        motion: Option<Bound<'_, ObstacleMotion>>,
+        #[pyo3(from_py_with = argument)] center: [f64; 2],
+        #[pyo3(from_py_with = argument)] radius: f64,
+        #[pyo3(from_py_with = argument)] name: Option<String>,
+        #[pyo3(from_py_with = argument)] motion: Option<Bound<'_, ObstacleMotion>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let shape = sound(py, "circle", Shape::circle(point(center), radius))?;
         Ok(Obstacle::new(shape, name, motion).add_subclass(Self))
@@ -161,11 +162,11 @@ impl Segment {
     #[pyo3(signature = (*, start, end, radius=0.0, name=None, motion=None))]
     fn new(
         py: Python<'_>,
-        start: [f64; 2],
-        end: [f64; 2],
-        radius: f64,
-        name: Option<String>,
-        motion: Option<Bound<'_, ObstacleMotion>>,
+        #[pyo3(from_py_with = argument)] start: [f64; 2],
+        #[pyo3(from_py_with = argument)] end: [f64; 2],
+        #[pyo3(from_py_with = argument)] radius: f64,
+        #[pyo3(from_py_with = argument)] name: Option<String>,
+        #[pyo3(from_py_with = argument)] motion: Option<Bound<'_, ObstacleMotion>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let shape = sound(py, "segment", Shape::segment(point(start), point(end), radius))?;
         Ok(Obstacle::new(shape, name, motion).add_subclass(Self))
@@ -217,9 +218,9 @@ impl Polygon {
     #[pyo3(signature = (*, vertices, name=None, motion=None))]
     fn new(
         py: Python<'_>,
-        vertices: Vec<[f64; 2]>,
-        name: Option<String>,
-        motion: Option<Bound<'_, ObstacleMotion>>,
+        #[pyo3(from_py_with = argument)] vertices: Vec<[f64; 2]>,
+        #[pyo3(from_py_with = argument)] name: Option<String>,
+        #[pyo3(from_py_with = argument)] motion: Option<Bound<'_, ObstacleMotion>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let shape = Shape::polygon(vertices.into_iter().map(point).collect());
         Ok(Obstacle::new(sound(py, "polygon", shape)?, name, motion).add_subclass(Self))

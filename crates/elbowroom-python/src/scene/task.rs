@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use super::part::{Keywords, NewArgs, Part, hash_of, made, number, pair, point};
+use crate::argument::{argument, text};
 use crate::errors;
 
 /// What they are called.
@@ -28,7 +29,7 @@ pub(crate) struct Configuration {
 #[pymethods]
 impl Configuration {
     #[new]
-    fn new(q: Vec<f64>) -> PyClassInitializer<Self> {
+    fn new(#[pyo3(from_py_with = argument)] q: Vec<f64>) -> PyClassInitializer<Self> {
         made(Self { q: q.into() })
     }
 
@@ -87,8 +88,8 @@ impl Task {
         py: Python<'_>,
         start: &Bound<'_, PyAny>,
         goal: &Bound<'_, PyAny>,
-        posture: &str,
-        clearance: f64,
+        #[pyo3(from_py_with = text)] posture: &str,
+        #[pyo3(from_py_with = argument)] clearance: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
         let Some((_, posture)) = POSTURES.into_iter().find(|(name, _)| *name == posture) else {
             let message = format!("'{posture}'; up, down, any or keep");

@@ -2,6 +2,7 @@ use elbowroom::units::{self, AngleUnit, LengthUnit};
 use pyo3::prelude::*;
 
 use super::part::{Keywords, NewArgs, Part, hash_of, made};
+use crate::argument::text;
 use crate::errors;
 
 /// The units that texts and pictures tell lengths and angles in; all attributes are in metres and radians whatever they are.
@@ -36,7 +37,11 @@ impl Units {
 impl Units {
     #[new]
     #[pyo3(signature = (*, length="m", angle="rad"))]
-    fn new(py: Python<'_>, length: &str, angle: &str) -> PyResult<PyClassInitializer<Self>> {
+    fn new(
+        py: Python<'_>,
+        #[pyo3(from_py_with = text)] length: &str,
+        #[pyo3(from_py_with = text)] angle: &str,
+    ) -> PyResult<PyClassInitializer<Self>> {
         let lengths = LengthUnit::ALL.into_iter().find(|unit| unit.name() == length);
         let angles = AngleUnit::ALL.into_iter().find(|unit| unit.name() == angle);
         match (lengths, angles) {

@@ -18,6 +18,6 @@ mod world;
 
 pub use known::{KnownError, KnownMotion};
 pub use replanner::{ReplanError, Replanner, goal_configurations};
-pub use roadmap::{NoRoute, Roadmap, Route, Updated, Upkeep};
+pub use roadmap::{Kept, NoRoute, Roadmap, Route, Updated, Upkeep};
 pub use update::{Decision, Update};
 pub use world::World;

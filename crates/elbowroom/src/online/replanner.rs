@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use super::known::{KnownError, KnownMotion, KnownScene};
 use super::placed::{AWAY, still};
+use super::roadmap::Kept;
 use super::routes::Routes;
 use super::search::{Certified, Search, standing};
 use super::settings::{ASTRAY, HOLD, LOOK_EVERY};
@@ -102,6 +103,12 @@ impl Replanner {
     /// Whether it ends at a goal.
     pub fn reaches_goal(&self) -> bool {
         self.reaches_goal
+    }
+
+    /// What its roadmaps keep, past all obstacles and past the static ones. All else is as large as the scene, the motion that
+    /// runs and what is known of the obstacles.
+    pub fn kept(&self) -> [Kept; 2] {
+        self.routes.kept()
     }
 
     /// Whether an arm in `state` rests at a goal.

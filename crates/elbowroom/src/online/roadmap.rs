@@ -22,7 +22,7 @@ const WORTH_REPAIRING: f64 = 0.8;
 ///
 /// Where obstacles move, the maps are filled again only where something came or went, only what is near there is
 /// forgotten, and the cost-to-go is repaired, unless most of what it holds may be otherwise. Memory grows with
-/// the part of the grid that was ever searched, not with the number of updates.
+/// the part of the grid that was ever searched, not with the number of updates: see [`Kept`].
 ///
 /// The arm itself may be anywhere: [`path_from`](Self::path_from) joins it to the nodes around.
 pub struct Roadmap {
@@ -56,6 +56,20 @@ pub struct Updated {
     pub cells: usize,
     /// Nodes of the graph near which something moved, where the cost-to-go was repaired; `None` where it was begun anew.
     pub repaired: Option<usize>,
+}
+
+/// What a roadmap keeps, in entries: it grows with the part of the grid that was ever searched, and is bounded by the grid, however
+/// long obstacles move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Kept {
+    /// Nodes of the graph: places in each posture, and goals. Maps, costs-to-go and numbers have up to 24 bytes for each.
+    pub nodes: usize,
+    /// Nodes for which there is room in what is known of configurations and edges, 48 bytes each: no more than `nodes`.
+    pub known: usize,
+    /// Nodes for which there is room on D*'s open list, 16 bytes each: no more than `nodes`.
+    pub open: usize,
+    /// Entries in the buckets of a field that is begun anew, 4 bytes each, while that goes on: a few for each node on the front.
+    pub in_buckets: usize,
 }
 
 /// A way to the goal.
@@ -249,6 +263,12 @@ impl Roadmap {
     /// How many nodes D* expanded since the field was begun.
     pub fn expansions(&self) -> usize {
         self.field.expansions()
+    }
+
+    /// What is kept now.
+    pub fn kept(&self) -> Kept {
+        let [open, in_buckets] = self.field.waiting();
+        Kept { nodes: self.field.len(), known: self.cache.room(), open, in_buckets }
     }
 
     fn look_at_goals(&mut self) {

@@ -1,7 +1,7 @@
 //! Where paths to the goal come from.
 
 use super::placed::{AWAY, placed, still};
-use super::roadmap::Roadmap;
+use super::roadmap::{Kept, Roadmap};
 use crate::path::JointPath;
 use crate::planning::PlanError;
 use crate::scene::{Course, Obstacle, Place, Scene, Task, TaskPosture};
@@ -27,6 +27,11 @@ impl Routes {
         };
         let roadmap = || Roadmap::new(still(scene, |_, _| None), &task);
         Ok(Self { past_all: roadmap()?, past_still: roadmap()? })
+    }
+
+    /// What both roadmaps keep.
+    pub(super) fn kept(&self) -> [Kept; 2] {
+        [self.past_all.kept(), self.past_still.kept()]
     }
 
     /// A path past all obstacles of `scene` as they are at `time` (s); `None` where the grid has none. The scene may differ

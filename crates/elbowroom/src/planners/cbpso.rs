@@ -38,20 +38,21 @@ impl Default for CbpsoPlanner {
     }
 }
 
-/// Iterations over which a swarm's inertia falls.
-const ITERATIONS: usize = 250;
+/// How the swarm goes about it.
+struct Settings {
+    /// Particles of a swarm, and iterations over which its inertia falls.
+    particles: usize,
+    iterations: usize,
+    /// Durations of pieces before they are scaled to the motion limits (s): only their ratios count.
+    durations: [f64; 2],
+    /// Looks at one piece.
+    looks: usize,
+    /// Rounds of lengthening a motion whose pieces were rounded to whole ticks.
+    rounds: usize,
+}
 
-/// Durations of pieces before they are scaled to the motion limits (s): only their ratios count.
-const DURATIONS: [f64; 2] = [0.3, 3.0];
-
-/// Velocity at a via point, as a share of what the joint may do before scaling.
-const FASTEST: f64 = 1.0;
-
-/// Looks at one piece.
-const LOOKS: usize = 24;
-
-/// Rounds of lengthening a motion whose pieces were rounded to whole ticks.
-const ROUNDS: usize = 6;
+const SETTINGS: Settings =
+    Settings { particles: 40, iterations: 250, durations: [0.3, 3.0], looks: 24, rounds: 6 };
 
 impl Planner for CbpsoPlanner {
     fn name(&self) -> &str {
@@ -88,7 +89,11 @@ impl Planner for CbpsoPlanner {
         };
         let mut incumbent = Incumbent::new(self.evaluations, *monitor);
         let bounds = choice.bounds(self.vias, &encoding.rates()).map_err(|error| bad(error.to_string()))?;
-        let swarm = SwarmSettings { particles: 40, iterations: ITERATIONS, ..SwarmSettings::default() };
+        let swarm = SwarmSettings {
+            particles: SETTINGS.particles,
+            iterations: SETTINGS.iterations,
+            ..SwarmSettings::default()
+        };
         let cultural = CulturalSettings { swarm, ..CulturalSettings::default() };
         let mut rng = ChaCha8Rng::seed_from_u64(settings.seed);
         while !incumbent.is_over() {
@@ -105,7 +110,7 @@ impl Planner for CbpsoPlanner {
                     let Some(motion) = encoding.motion(x) else {
                         return incumbent.evaluate(|| f64::MAX, || 0.0, || None);
                     };
-                    let looks = motion.instants(LOOKS);
+                    let looks = motion.instants(SETTINGS.looks);
                     incumbent.evaluate(
                         || violation(&path_objective, &motion, &looks),
                         || settings.objective.of_looks(scene.arm(), &looks, motion.duration()),
@@ -131,8 +136,8 @@ impl MotionEncoding<'_> {
     /// Ranges of velocities and durations.
     fn rates(&self) -> Vec<[f64; 2]> {
         let velocities = (0..self.vias).flat_map(|_| self.limits.iter());
-        let velocities = velocities.map(|limit| [-FASTEST * limit.velocity, FASTEST * limit.velocity]);
-        velocities.chain((0..=self.vias).map(|_| DURATIONS)).collect()
+        let velocities = velocities.map(|limit| [-limit.velocity, limit.velocity]);
+        velocities.chain((0..=self.vias).map(|_| SETTINGS.durations)).collect()
     }
 
     /// A position of via configurations and choice with even durations, and velocities as on the straight way.
@@ -150,7 +155,7 @@ impl MotionEncoding<'_> {
         for k in 1..=self.vias {
             for (j, limit) in self.limits.iter().enumerate() {
                 let slope = (at(k + 1, j) - at(k - 1, j)) / (2.0 * duration);
-                all.push(slope.clamp(-FASTEST * limit.velocity, FASTEST * limit.velocity));
+                all.push(slope.clamp(-limit.velocity, limit.velocity));
             }
         }
         all.extend((0..=self.vias).map(|_| duration));
@@ -184,7 +189,7 @@ impl MotionEncoding<'_> {
             None => slow_down(&even),
             Some(duration) => duration / durations.iter().sum::<f64>(),
         };
-        for _ in 0..ROUNDS {
+        for _ in 0..SETTINGS.rounds {
             let total: f64 = durations.iter().sum::<f64>() * factor;
             let scaled = on_ticks(durations, factor, asked.is_some().then_some(total));
             let pieces = self.pieces(&places, velocities, &scaled, factor);

@@ -10,38 +10,45 @@ use crate::geometry::Point;
 use crate::planning::{Budget, Exhausted, Found, OptionValue, PlanError, Planner, Problem, Round, Stage};
 use crate::scene::Place;
 
-/// How far the tip is led in one step, as a share of the reach.
-const STRIDE: f64 = 0.04;
+/// How the tip is led, and when a run is given up.
+struct Settings {
+    /// How far the tip is led in one step, as a share of the reach.
+    stride: f64,
+    /// Particles and iterations of each swarm.
+    swarm: [usize; 2],
+    /// How far from the configuration before it the swarm looks (rad).
+    radius: f64,
+    /// The same where nothing was found so near.
+    far: f64,
+    /// How often the way of the tip is halved where the arm cannot follow it.
+    halvings: usize,
+    /// Configurations that are gone back by where the arm cannot go on.
+    back: usize,
+    /// Places that could not be passed after which the arm starts anew.
+    most_troubles: usize,
+    /// Share of the budget after which it does, too.
+    share: usize,
+    /// Least distance by the guide, in strides, at which the goal itself is tried.
+    near: f64,
+    /// Cells of all guides that are kept.
+    most_cells: usize,
+    /// Paths that are made into motions, at the most, until one is accepted.
+    most_motions: usize,
+}
 
-/// Particles and iterations of each swarm.
-const SWARM: [usize; 2] = [14, 20];
-
-/// How far from the configuration before it the swarm looks (rad).
-const RADIUS: f64 = 0.4;
-
-/// The same where nothing was found so near.
-const FAR: f64 = 1.2;
-
-/// How often the way of the tip is halved where the arm cannot follow it.
-const HALVINGS: usize = 1;
-
-/// Configurations that are gone back by where the arm cannot go on.
-const BACK: usize = 3;
-
-/// Places that could not be passed after which the arm starts anew.
-const MOST_TROUBLES: usize = 150;
-
-/// Share of the budget after which it does, too.
-const SHARE: usize = 6;
-
-/// Least distance by the guide, in strides, at which the goal itself is tried.
-const NEAR: f64 = 2.0;
-
-/// Cells of all guides that are kept.
-const MOST_CELLS: usize = 1 << 21;
-
-/// Paths that are made into motions, at the most, until one is accepted.
-const MOST_MOTIONS: usize = 8;
+const SETTINGS: Settings = Settings {
+    stride: 0.04,
+    swarm: [14, 20],
+    radius: 0.4,
+    far: 1.2,
+    halvings: 1,
+    back: 3,
+    most_troubles: 150,
+    share: 6,
+    near: 2.0,
+    most_cells: 1 << 21,
+    most_motions: 8,
+};
 
 /// `ik-pso`: inverse kinematics by a swarm along D*'s way of the tip, each configuration near the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,11 +100,11 @@ impl Planner for IkPsoPlanner {
             (&ends.goals, target(&problem.task.start, &ends.starts), &to_starts),
         ];
         // What is learnt from one root stays with it, as far as memory goes.
-        let most = (MOST_CELLS / scene.grid().len()).max(2);
+        let most = (SETTINGS.most_cells / scene.grid().len()).max(2);
         let mut guides = ways.map(|(roots, ..)| vec![None; roots.len().min(most)]);
         let local = LocalPlanner::new(scene, Budget::new(self.evaluations, *monitor), settings.seed);
         let mut runs = 0_usize..;
-        gather(problem, local, [usize::MAX, MOST_MOTIONS], |local| {
+        gather(problem, local, [usize::MAX, SETTINGS.most_motions], |local| {
             let run = runs.next().unwrap_or_default();
             let (roots, target, untaught) = ways[run % 2];
             let round = run / 2;
@@ -107,7 +114,7 @@ impl Planner for IkPsoPlanner {
             let kept = guides[run % 2].len();
             let guide: &mut Option<NavigationFunction> = &mut guides[run % 2][round % roots.len() % kept];
             let guide = guide.get_or_insert_with(|| untaught.clone());
-            let follower = Follower { guide, target, most: self.evaluations / SHARE };
+            let follower = Follower { guide, target, most: self.evaluations / SETTINGS.share };
             // Every run counts, so that the budget ends them.
             local.budget.spend(1)?;
             let path = follower.path(local, root)?;
@@ -147,10 +154,10 @@ impl Follower<'_> {
     ) -> Result<Option<Vec<Configuration>>, Exhausted> {
         let reach = local.scene.arm().reach()[1];
         let begun = local.budget.made();
-        let steps = ((STRIDE * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
+        let steps = ((SETTINGS.stride * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
         let mut path = vec![Configuration::from(start)];
         let mut troubles = 0;
-        while troubles < MOST_TROUBLES && local.budget.made() - begun < self.most {
+        while troubles < SETTINGS.most_troubles && local.budget.made() - begun < self.most {
             // Every round counts, so that the budget ends them.
             local.budget.spend(1)?;
             let from = path[path.len() - 1].clone();
@@ -169,14 +176,18 @@ impl Follower<'_> {
             }
             let ahead = self.guide.ahead(cell, steps);
             let tip = self.guide.point(ahead);
-            let share = (STRIDE * reach / left.max(STRIDE * reach)).min(1.0);
-            let on = if ahead == cell { None } else { self.led(local, &from, tip, &goal, share, HALVINGS)? };
+            let share = (SETTINGS.stride * reach / left.max(SETTINGS.stride * reach)).min(1.0);
+            let on = if ahead == cell {
+                None
+            } else {
+                self.led(local, &from, tip, &goal, share, SETTINGS.halvings)?
+            };
             match on {
                 Some(places) => path.extend(places),
                 None => {
                     troubles += 1;
                     self.guide.penalise(ahead, 2 * steps);
-                    path.truncate(path.len().saturating_sub(BACK * (1 + troubles % 3)).max(1));
+                    path.truncate(path.len().saturating_sub(SETTINGS.back * (1 + troubles % 3)).max(1));
                 }
             }
         }
@@ -196,11 +207,11 @@ impl Follower<'_> {
         // Drawn to where it has to be in the end, as far as the tip is led there.
         let towards = goal.as_ref().map(|goal| local.scene.arm().nearest_turn(from, goal));
         let around: Configuration = towards.map_or_else(|| from.into(), |goal| lerp(from, &goal, share));
-        if let Some(q) = local.by_swarm(from, &around, tip, RADIUS, SWARM)? {
+        if let Some(q) = local.by_swarm(from, &around, tip, SETTINGS.radius, SETTINGS.swarm)? {
             return Ok(Some(vec![q]));
         }
         if halvings == 0 {
-            let found = local.by_swarm(from, from, tip, FAR, SWARM)?;
+            let found = local.by_swarm(from, from, tip, SETTINGS.far, SETTINGS.swarm)?;
             return Ok(found.map(|q| vec![q]));
         }
         let half = local.tip(from).lerp(tip, 0.5);
@@ -237,7 +248,7 @@ impl Follower<'_> {
 
     fn is_near(&self, local: &LocalPlanner<'_>, from: &[f64], reach: f64) -> bool {
         let tip = local.tip(from);
-        let is_near = |goal: Point| goal.distance(tip) <= NEAR * STRIDE * reach;
+        let is_near = |goal: Point| goal.distance(tip) <= SETTINGS.near * SETTINGS.stride * reach;
         match self.target {
             Target::Tip(goal) => is_near(goal),
             Target::Configurations(goals) => goals.iter().any(|goal| is_near(local.tip(goal))),

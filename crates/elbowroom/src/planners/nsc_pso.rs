@@ -42,14 +42,17 @@ impl Default for NscPsoPlanner {
     }
 }
 
-/// Iterations over which a swarm's inertia falls.
-const ITERATIONS: usize = 200;
+/// How the swarm begins, and how long it goes on.
+struct Settings {
+    /// Iterations over which a swarm's inertia falls.
+    iterations: usize,
+    /// Largest perturbation of a waypoint (rad): each particle has its own share of it.
+    shake: f64,
+    /// Part of the shaking that does not regard the step cost, so that a way that is free all along is varied too.
+    least_shake: f64,
+}
 
-/// Largest perturbation of a waypoint (rad): each particle has its own share of it.
-const SHAKE: f64 = 7.0;
-
-/// Part of the shaking that does not regard the step cost, so that a way that is free all along is varied too.
-const LEAST_SHAKE: f64 = 0.05;
+const SETTINGS: Settings = Settings { iterations: 200, shake: 7.0, least_shake: 0.05 };
 
 impl Planner for NscPsoPlanner {
     fn name(&self) -> &str {
@@ -86,7 +89,7 @@ impl Planner for NscPsoPlanner {
 
     fn search(&self, problem: &Problem<'_>, _: Round) -> Result<Found, PlanError> {
         let swarm = SwarmSettings {
-            iterations: ITERATIONS,
+            iterations: SETTINGS.iterations,
             neighbourhood: Neighbourhood::Ring { k: 2 },
             ..SwarmSettings::default()
         };
@@ -122,12 +125,12 @@ fn perturbed(
             let costs = normalised(
                 &(1..=waypoints).map(|k| path_objective.watch(start).at(&at(k), 0.0)).collect::<Vec<_>>(),
             );
-            let shake = SHAKE * i as f64 / count as f64;
+            let shake = SETTINGS.shake * i as f64 / count as f64;
             let noise: Vec<Vec<f64>> = (0..joints).map(|_| smooth_noise(waypoints, rng)).collect();
             let mut position = Vec::with_capacity(waypoints * joints + 1);
             for k in 0..waypoints {
                 let straight = at(k + 1);
-                let share = LEAST_SHAKE + (1.0 - LEAST_SHAKE) * costs[k];
+                let share = SETTINGS.least_shake + (1.0 - SETTINGS.least_shake) * costs[k];
                 position.extend((0..joints).map(|j| straight[j] + shake * share * noise[j][k]));
             }
             position.push(coordinate);

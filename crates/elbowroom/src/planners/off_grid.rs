@@ -12,18 +12,25 @@ use crate::scene::TwoLinkScene;
 use crate::trajectory::SpeedLimits;
 use crate::verify::images;
 
-/// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
-const MARGINS: [f64; 3] = [1e-3, 1e-4, 0.0];
+/// What clearance paths keep, and which are good enough.
+struct Settings {
+    /// Clearance that paths keep where they can (m): room for the motion to be smooth in; and none.
+    margins: [f64; 3],
+    /// The same where corners cost: wide berths have soft bends.
+    soft_margins: [f64; 4],
+    /// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
+    /// to be sought, unless a gap is asked for.
+    near_enough: f64,
+    /// Longest turn of a straight line of the tip, in grid steps.
+    tip_turn: f64,
+}
 
-/// The same where corners cost: wide berths have soft bends.
-const SOFT_MARGINS: [f64; 4] = [1e-2, 3e-3, 1e-3, 0.0];
-
-/// A path that costs no more than this share above the lower bound is good enough for those that keep less clearance not
-/// to be sought, unless a gap is asked for.
-const NEAR_ENOUGH: f64 = 0.007;
-
-/// Longest turn of a straight line of the tip, in grid steps.
-const TIP_TURN: f64 = 0.5;
+const SETTINGS: Settings = Settings {
+    margins: [1e-3, 1e-4, 0.0],
+    soft_margins: [1e-2, 3e-3, 1e-3, 0.0],
+    near_enough: 0.007,
+    tip_turn: 0.5,
+};
 
 /// Two turns one after the other are one where the place between them is this near to the straight one (rad).
 const STRAIGHT: f64 = 1e-9;
@@ -40,7 +47,7 @@ pub(crate) struct Search {
 impl Search {
     /// Paths `distance` (rad) away; with a lower bound of joint travel (rad) one that comes near to it is enough.
     pub(crate) fn new(distance: f64, bound: Option<f64>) -> Self {
-        Self { distance, enough: bound.map(|bound| (1.0 + NEAR_ENOUGH) * bound) }
+        Self { distance, enough: bound.map(|bound| (1.0 + SETTINGS.near_enough) * bound) }
     }
 }
 
@@ -57,7 +64,7 @@ pub(crate) fn over_joints(
     let Search { distance, enough } = search;
     let (weights, measure) = (objective.weights(limits), objective.measure(limits));
     let mut found: Vec<JointPath> = Vec::new();
-    let margins: &[f64] = if objective.minds_corners() { &SOFT_MARGINS } else { &MARGINS };
+    let margins: &[f64] = if objective.minds_corners() { &SETTINGS.soft_margins } else { &SETTINGS.margins };
     for &margin in margins {
         monitor.stage(Stage::CostToGo);
         let Some(path) = shortest(scene, ends, measure, margin, distance, monitor)? else { continue };
@@ -88,8 +95,8 @@ pub(crate) fn over_tips(
 ) -> Result<Vec<JointPath>, PlanError> {
     monitor.stage(Stage::JointPath);
     let mut found: Vec<JointPath> = Vec::new();
-    for margin in MARGINS {
-        let shortcut = Shortcut { scene, plane: Plane::Tip(TIP_TURN * scene.grid().step()), margin };
+    for margin in SETTINGS.margins {
+        let shortcut = Shortcut { scene, plane: Plane::Tip(SETTINGS.tip_turn * scene.grid().step()), margin };
         let path = shortcut.taut(path, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
         if !found.contains(&path) {
             found.push(path);

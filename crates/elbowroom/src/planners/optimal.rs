@@ -1,20 +1,24 @@
 use std::ops::RangeInclusive;
 
 use super::off_grid::{Search, over_joints, over_tips};
-use super::over_grid::{Choice, GRID_TOLERANCE, paths_over_grid};
+use super::over_grid::{self, Choice, paths_over_grid};
 use crate::path::JointPath;
 use crate::planning::{Candidate, Found, PathToFollow, Pick, PlanError, Planner, Problem, Round};
 
-/// How far a motion may stray from a taut path before the verifier is asked, in grid steps: it has no zigzag to lose.
-const TAUT_TOLERANCE: f64 = 0.1;
+/// How closely paths are followed, and how near to the obstacles they and the walls of bounds are.
+struct Settings {
+    /// How far a motion may stray from a taut path before the verifier is asked, in grid steps: it has no zigzag to lose.
+    taut_tolerance: f64,
+    /// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
+    /// more to prove than to look past.
+    walls_deeper: f64,
+    /// Walls of lower bounds stand this far inside the obstacles (rad), from round to round: twice as far as the free cells stay before
+    /// them.
+    distances: [f64; 5],
+}
 
-/// How much farther inside the obstacles the walls of a bound stand than those of free cells before them: a wall costs
-/// more to prove than to look past.
-const WALLS_DEEPER: f64 = 2.0;
-
-/// Walls of lower bounds stand this far inside the obstacles (rad), from round to round: twice as far as the free cells stay before
-/// them.
-const DISTANCES: [f64; 5] = [6e-3, 2e-3, 2e-4, 2e-5, 2e-6];
+const SETTINGS: Settings =
+    Settings { taut_tolerance: 0.1, walls_deeper: 2.0, distances: [6e-3, 2e-3, 2e-4, 2e-5, 2e-6] };
 
 /// `optimal`: taut paths that leave the grid, with a lower bound, ever nearer to the obstacles until the gap between both is as
 /// small as was asked for; for arms of two links.
@@ -34,7 +38,7 @@ impl Planner for OptimalPlanner {
     }
 
     fn rounds(&self) -> &[f64] {
-        &DISTANCES
+        &SETTINGS.distances
     }
 
     /// Paths over the joints or, where that is what counts, over the tip; where corners cost what D* finds as well, which may have
@@ -47,10 +51,10 @@ impl Planner for OptimalPlanner {
             None if !objective.is_in_workspace() && !objective.minds_corners() => round.lower_bound,
             _ => None,
         };
-        let search = Search::new(round.distance / WALLS_DEEPER, near);
+        let search = Search::new(round.distance / SETTINGS.walls_deeper, near);
         let over_joints =
             || over_joints(scene, &problem.endpoints, objective, limits, search, problem.monitor);
-        let taut = |path| candidate(path, TAUT_TOLERANCE);
+        let taut = |path| candidate(path, SETTINGS.taut_tolerance);
         let candidates = if objective.is_in_workspace() {
             let on_grid = self.on_grid(problem)?.candidates;
             let mut rough: Vec<JointPath> = on_grid.into_iter().filter_map(Candidate::into_path).collect();
@@ -66,9 +70,11 @@ impl Planner for OptimalPlanner {
             let mut candidates = self.on_grid(problem)?.candidates;
             match over_joints() {
                 // The corners are kept to closely, and loosely.
-                Ok(more) => candidates.extend(
-                    more.into_iter().flat_map(|path| [candidate(path.clone(), GRID_TOLERANCE), taut(path)]),
-                ),
+                Ok(more) => {
+                    candidates.extend(more.into_iter().flat_map(|path| {
+                        [candidate(path.clone(), over_grid::SETTINGS.tolerance), taut(path)]
+                    }))
+                }
                 Err(PlanError::NotFoundOverJoints { .. }) if !candidates.is_empty() => {}
                 Err(other) => return Err(other),
             }

@@ -13,18 +13,22 @@ use crate::roadmap::PostureGraph;
 use crate::search::{Dstar, Graph, Until};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
 
-/// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
-const SHORTLIST: usize = 8;
+/// How many paths are followed and how closely; where a proof that there is none is tried.
+pub(super) struct Settings {
+    /// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
+    shortlist: usize,
+    /// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
+    pub(super) tolerance: f64,
+    /// How far inside the obstacles walls stand (rad), one after the other, where the grid connects nothing: until there is a path off
+    /// the grid, or a proof that there is none.
+    distances: [f64; 5],
+}
 
-/// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
-pub(super) const GRID_TOLERANCE: f64 = 1.0;
+pub(super) const SETTINGS: Settings =
+    Settings { shortlist: 8, tolerance: 1.0, distances: [3e-3, 1e-3, 1e-4, 1e-5, 1e-6] };
 
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
-
-/// How far inside the obstacles walls stand (rad), one after the other, where the grid connects nothing: until there is a path off
-/// the grid, or a proof that there is none.
-const DISTANCES: [f64; 5] = [3e-3, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Which paths over the grid are candidates.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +56,7 @@ pub(super) fn over_grid(
     if let Some(outside) = outside_grid(problem, scene.grid()) {
         return Err(outside);
     }
-    for distance in DISTANCES {
+    for distance in SETTINGS.distances {
         least_cost(problem, distance)?;
         // Where there is a path off the grid nothing can be proved against one.
         let search = Search::new(distance, None);
@@ -150,10 +154,10 @@ pub(super) fn paths_over_grid(
     };
     // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
     let mut chosen = joined(own)?;
-    chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SHORTLIST));
+    chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SETTINGS.shortlist));
     let candidate = |(tip_travel, path)| {
         let tip_travel = Some(tip_travel);
-        Candidate::certified(PathToFollow { path, tip_travel, tolerance: GRID_TOLERANCE })
+        Candidate::certified(PathToFollow { path, tip_travel, tolerance: SETTINGS.tolerance })
     };
     let candidates = chosen.into_iter().map(candidate).collect();
     Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })

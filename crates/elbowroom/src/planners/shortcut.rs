@@ -6,17 +6,19 @@ use crate::path::{joint_path, pairs};
 use crate::roadmap::direct;
 use crate::scene::TwoLinkScene;
 
-/// Rounds of leaving out and cutting; the gain falls by about half with each.
-const ROUNDS: usize = 40;
+/// When a path is taut enough.
+struct Settings {
+    /// Rounds of leaving out and cutting; the gain falls by about half with each.
+    rounds: usize,
+    /// A round that gains less than this share of the length is the last.
+    least_gain: f64,
+    /// How often a cut is halved before a corner is left as it is.
+    halvings: u32,
+    /// More corners than this are not made.
+    most_corners: usize,
+}
 
-/// A round that gains less than this share of the length is the last.
-const LEAST_GAIN: f64 = 1e-4;
-
-/// How often a cut is halved before a corner is left as it is.
-const HALVINGS: u32 = 8;
-
-/// More corners than this are not made.
-const MOST_CORNERS: usize = 48;
+const SETTINGS: Settings = Settings { rounds: 40, least_gain: 1e-4, halvings: 8, most_corners: 48 };
 
 /// In what plane lines are straight.
 #[derive(Debug, Clone, Copy)]
@@ -40,17 +42,17 @@ impl Shortcut<'_> {
     pub(crate) fn taut(&self, path: &JointPath, keep_going: &dyn Fn() -> bool) -> Option<JointPath> {
         let mut corners = self.galloped(&pairs(&path.0));
         let mut before = self.length(&corners);
-        for _ in 0..ROUNDS {
+        for _ in 0..SETTINGS.rounds {
             if !keep_going() {
                 return None;
             }
             self.leave_out(&mut corners);
-            if corners.len() <= MOST_CORNERS {
+            if corners.len() <= SETTINGS.most_corners {
                 corners = self.cut(&corners);
             }
             self.leave_out(&mut corners);
             let length = self.length(&corners);
-            if before - length <= LEAST_GAIN * before {
+            if before - length <= SETTINGS.least_gain * before {
                 break;
             }
             before = length;
@@ -167,7 +169,7 @@ impl Shortcut<'_> {
             let before = found[found.len() - 1];
             let mut fraction = 0.5;
             let mut cut = None;
-            for _ in 0..HALVINGS {
+            for _ in 0..SETTINGS.halvings {
                 let ends = (
                     self.between(&triple[1], &before, fraction),
                     self.between(&triple[1], &triple[2], fraction),

@@ -13,6 +13,9 @@ const TURN_ROUNDING: f64 = 1e-9;
 /// Most that a joint turns in one step (rad): at half a revolution rounding would say which way round.
 const MOST_TURN: f64 = std::f64::consts::PI - 1e-6;
 
+/// For how many nodes there is room at first.
+const LEAST_ROOM: usize = 64;
+
 /// The free configurations over the grid, laid out by solution branch, one per posture, and more where a joint with limits can
 /// turn more than once round. What is asked of a node is worked out once and kept; a node never asked for costs
 /// four bytes.
@@ -203,10 +206,7 @@ impl<'a> BranchGrid<'a> {
                 return None;
             }
             let record = self.work_out(node, self.stand(node)?);
-            let mut records = self.cache.records.borrow_mut();
-            records.push(record);
-            self.cache.places.borrow_mut()[node] = records.len() as u32;
-            return Some((records.len() - 1, record));
+            return Some((self.cache.keep(node, record), record));
         };
         let record = self.cache.records.borrow()[place];
         if !record.is_due {
@@ -252,6 +252,23 @@ impl NodeCache {
     /// Of how many nodes something is known.
     pub(crate) fn count(&self) -> usize {
         self.records.borrow().len()
+    }
+
+    /// For how many nodes there is room: twice as many as were ever looked at, and never more than there are.
+    pub(crate) fn room(&self) -> usize {
+        self.records.borrow().capacity()
+    }
+
+    /// Keeps the first `record` of `node`; where.
+    fn keep(&self, node: usize, record: CachedNode) -> usize {
+        let (mut places, mut records) = (self.places.borrow_mut(), self.records.borrow_mut());
+        let known = records.len();
+        if known == records.capacity() {
+            records.reserve_exact(known.max(LEAST_ROOM).min(places.len() - known));
+        }
+        records.push(record);
+        places[node] = records.len() as u32;
+        known
     }
 
     /// With room for `len` nodes, if there is none yet.

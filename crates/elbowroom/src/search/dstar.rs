@@ -266,6 +266,12 @@ impl Dstar {
     }
 
     /// Whether nothing on the open list can change what `until` asks for.
+    /// Entries for which there is room in the open list, never more than there are nodes; and those in the buckets of a first
+    /// wave, where a node that fell from one bucket to another has several.
+    pub fn waiting(&self) -> [usize; 2] {
+        [self.open.room(), self.ring.as_ref().map_or(0, Ring::len)]
+    }
+
     fn holds(&self, until: Until) -> bool {
         if let Some(ring) = &self.ring {
             return match (self.first_bucket(ring), until) {

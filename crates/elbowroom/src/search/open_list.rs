@@ -4,6 +4,9 @@ const ARITY: usize = 4;
 /// The slot of a node that is not on the list: 0, so that a new list is memory nobody has touched.
 const ABSENT: u32 = 0;
 
+/// For how many nodes there is room at first.
+const LEAST_ROOM: usize = 64;
+
 /// The slot of a node that waits in a [`Ring`](super::ring::Ring).
 const IN_RING: u32 = 1;
 
@@ -80,6 +83,11 @@ impl OpenList {
         self.slots[node] = ABSENT;
     }
 
+    /// For how many nodes the heap has room: never more than there are.
+    pub(super) fn room(&self) -> usize {
+        self.heap.capacity()
+    }
+
     /// The least key in the heap.
     pub(super) fn least_key(&self) -> Option<f64> {
         self.heap.first().map(|entry| entry.key())
@@ -90,6 +98,10 @@ impl OpenList {
         let entry = Entry::new(node, key);
         match self.slots[node].checked_sub(FIRST) {
             None => {
+                let waiting = self.heap.len();
+                if waiting == self.heap.capacity() {
+                    self.heap.reserve_exact(waiting.max(LEAST_ROOM).min(self.slots.len() - waiting));
+                }
                 self.heap.push(entry);
                 self.sift_up(self.heap.len() - 1, entry);
             }

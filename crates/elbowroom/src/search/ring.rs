@@ -75,6 +75,11 @@ impl Ring {
             .find(|bucket| !self.buckets[(bucket % BUCKETS) as usize].is_empty())
     }
 
+    /// How many entries wait.
+    pub(super) fn len(&self) -> usize {
+        self.emptied.len() - self.next + self.buckets.iter().map(Vec::len).sum::<usize>()
+    }
+
     /// Goes on to `bucket`, before which there must be nothing.
     pub(super) fn go_on_to(&mut self, bucket: u64) {
         debug_assert!(bucket >= self.current && self.first().is_none_or(|first| bucket <= first));

@@ -1,11 +1,9 @@
 //! Which start and which goal a particle stands for, and the box it may fly in.
 
+use super::settings::SETTINGS;
 use crate::arm::{Arm, Configuration, JointLimits};
 use crate::planning::Endpoints;
 use crate::swarm::{Bounds, BoundsError};
-
-/// How far beyond start and goal a continuous joint may go (rad).
-const BEYOND: f64 = std::f64::consts::PI;
 
 /// Pairs of a start and a goal; a particle's last coordinate, in [0, 1], says which.
 pub(in crate::planners) struct EndpointChoice {
@@ -24,8 +22,8 @@ impl EndpointChoice {
             JointLimits::Continuous => {
                 let places = || pairs.iter().flatten().map(|q| q[j]);
                 [
-                    places().fold(f64::INFINITY, f64::min) - BEYOND,
-                    places().fold(f64::NEG_INFINITY, f64::max) + BEYOND,
+                    places().fold(f64::INFINITY, f64::min) - SETTINGS.beyond,
+                    places().fold(f64::NEG_INFINITY, f64::max) + SETTINGS.beyond,
                 ]
             }
         };

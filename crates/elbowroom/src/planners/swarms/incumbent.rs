@@ -1,5 +1,6 @@
 //! The incumbent: the best candidate so far that is certified, whichever swarm found it, until the budget is spent.
 
+use super::settings::SETTINGS;
 use crate::planning::{Budget, Effort, Exhausted, Monitor, PlanError};
 use crate::swarm::Fitness;
 
@@ -64,25 +65,23 @@ impl<'a, T> Incumbent<'a, T> {
     }
 }
 
-/// Iterations without a better candidate after which a swarm is given up.
+/// When a swarm that finds no better candidate is given up.
 pub(in crate::planners) struct Stagnation {
     left: usize,
     best: Fitness,
 }
 
 impl Stagnation {
-    const ITERATIONS: usize = 60;
-
     pub(in crate::planners) fn new() -> Self {
         use crate::swarm::Value;
-        Self { left: Self::ITERATIONS, best: Fitness::WORST }
+        Self { left: SETTINGS.stagnation, best: Fitness::WORST }
     }
 
     /// Whether the swarm, whose best is `best` now, is worth another iteration.
     pub(in crate::planners) fn lasts(&mut self, best: Fitness) -> bool {
         use crate::swarm::Value;
         if best.is_better(self.best) {
-            *self = Self { left: Self::ITERATIONS, best };
+            *self = Self { left: SETTINGS.stagnation, best };
         }
         self.left = self.left.saturating_sub(1);
         self.left > 0
@@ -97,10 +96,10 @@ mod tests {
     fn a_swarm_that_finds_nothing_better_is_given_up() {
         let of = |cost: f64| Fitness { violation: 0.0, cost };
         let mut stagnation = Stagnation::new();
-        assert!((0..Stagnation::ITERATIONS - 1).all(|_| stagnation.lasts(of(1.0))));
+        assert!((0..SETTINGS.stagnation - 1).all(|_| stagnation.lasts(of(1.0))));
         assert!(!stagnation.lasts(of(1.0)));
         // Whatever is better gives it as many iterations again.
         let mut stagnation = Stagnation::new();
-        assert!((0..10 * Stagnation::ITERATIONS).all(|i| stagnation.lasts(of(-(i as f64)))));
+        assert!((0..10 * SETTINGS.stagnation).all(|i| stagnation.lasts(of(-(i as f64)))));
     }
 }

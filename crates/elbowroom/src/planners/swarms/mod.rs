@@ -4,6 +4,7 @@ mod endpoint_choice;
 mod incumbent;
 mod path_objective;
 mod polyline;
+mod settings;
 
 pub(super) use endpoint_choice::EndpointChoice;
 pub(super) use incumbent::{Incumbent, Stagnation};

@@ -1,18 +1,11 @@
 //! How long a polyline of configurations is, and how far from free.
 
+use super::settings::SETTINGS;
 use crate::arm::Configuration;
 use crate::path::Penetration;
 use crate::planning::{Objective, motion_limits};
 use crate::scene::Scene;
 use crate::trajectory::SpeedLimits;
-
-/// Distance between two samples at a turn, as a share of the reach, and the most looks at one.
-const LOOK_EVERY: f64 = 0.015;
-const MOST_LOOKS: usize = 64;
-
-/// Clearance that candidates are led to keep, as a share of the reach: what is examined only here and there shall be
-/// certified.
-const KEPT: f64 = 2e-3;
 
 /// The measure of candidates. It orders them; what is handed out is certified.
 pub(in crate::planners) struct PathObjective<'a> {
@@ -29,8 +22,8 @@ impl<'a> PathObjective<'a> {
     pub(in crate::planners) fn new(scene: &'a Scene, objective: Objective, keeps_posture: bool) -> Self {
         let (limits, _) = motion_limits(scene.arm());
         let [_, reach] = scene.arm().reach();
-        let contacts = Penetration::new(scene, KEPT * reach);
-        Self { scene, objective, limits, look_every: LOOK_EVERY * reach, contacts, keeps_posture }
+        let contacts = Penetration::new(scene, SETTINGS.kept * reach);
+        Self { scene, objective, limits, look_every: SETTINGS.look_every * reach, contacts, keeps_posture }
     }
 
     pub(in crate::planners) fn limits(&self) -> &[SpeedLimits] {
@@ -73,7 +66,7 @@ impl<'a> PathObjective<'a> {
     }
 
     fn looks(&self, from: &[f64], to: &[f64]) -> usize {
-        ((self.way(from, to) / self.look_every).ceil() as usize).clamp(1, MOST_LOOKS)
+        ((self.way(from, to) / self.look_every).ceil() as usize).clamp(1, SETTINGS.most_looks)
     }
 
     /// How far `q` is beyond the limits and, where the posture at `start` is to be kept, beyond the full stretch (m).

@@ -4,24 +4,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 use thiserror::Error;
 
+use super::settings::SETTINGS;
 use crate::arm::{Arm, Configuration, Joint, JointLimits};
 use crate::geometry::{Point, Vector};
 use crate::swarm::{Bounds, BoundsError, Fitness, Neighbourhood, Swarm, SwarmError, SwarmSettings, Value};
 
-/// Iterations without a hundredth of gain after which a swarm has come to rest and another one begins.
-const PATIENCE: usize = 20;
-
-/// Low, so that a swarm comes to rest soon: the next one begins where it ended.
-const INERTIA: f64 = 0.4;
-
-/// Pull towards a particle's own best, and towards the swarm's.
-const PULL: f64 = 1.49618;
-
 /// Iterations that room is taken for beforehand.
 const MOST_RESERVED: usize = 1_000;
-
-/// How far from 0 continuous joints are drawn (rad): more than half a revolution, so that no direction lies at an edge only.
-const WIDEST_DRAW: f64 = 1.5 * std::f64::consts::PI;
 
 /// How [`inverse_by_swarm`] looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,15 +110,15 @@ pub fn inverse_by_swarm(
             return Err(InverseSwarmError::Previous { finite, joints, radius });
         }
     }
-    let bounds = Bounds::new(&ranges(arm, previous, WIDEST_DRAW))?;
+    let bounds = Bounds::new(&ranges(arm, previous, SETTINGS.widest_draw))?;
     let allowed = ranges(arm, previous, f64::INFINITY);
     let swarm_settings = SwarmSettings {
         particles: settings.particles,
         neighbourhood: Neighbourhood::Global,
-        first_inertia: INERTIA,
-        last_inertia: INERTIA,
-        c_personal: PULL,
-        c_neighbour: PULL,
+        first_inertia: SETTINGS.inertia,
+        last_inertia: SETTINGS.inertia,
+        c_personal: SETTINGS.pull,
+        c_neighbour: SETTINGS.pull,
         v_max: Some(0.5),
         iterations: settings.iterations.max(1),
     };
@@ -162,7 +151,7 @@ pub fn inverse_by_swarm(
         }
         if is_gain(fitness, gained, 0.99) {
             (gained_at, gained) = (iteration, fitness);
-        } else if iteration - gained_at >= PATIENCE {
+        } else if iteration - gained_at >= SETTINGS.swarm_patience {
             // Around the best for as long as that gains, then anywhere.
             let closer = least.is_feasible() && is_gain(*least, before, 0.5);
             before = if closer { *least } else { Fitness::WORST };

@@ -4,27 +4,13 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
 use super::inverse_swarm::{InverseSwarmSettings, Previous, inverse_by_swarm};
+use super::settings::SETTINGS;
 use crate::arm::{Configuration, Posture, joint_distance};
 use crate::geometry::Point;
 use crate::path::{Penetration, straight_move_is_free};
 use crate::planning::{Budget, Exhausted};
 use crate::random::{below, unit};
 use crate::scene::Scene;
-
-/// Clearance that the swarm wants, as a share of the reach; the certificate asks for less.
-const MARGIN: f64 = 1e-4;
-
-/// What a squared radian away from the previous configuration costs, as a share of the reach squared.
-const NEARNESS: f64 = 1e-5;
-
-/// How near the swarm brings the tip before damped least squares take over, as a share of the reach.
-const NEAR_ENOUGH: f64 = 1e-3;
-
-/// Steps in which the arm is moved to another configuration with the tip where it is (rad, the greatest of a joint).
-const SELF_STEP: f64 = 0.15;
-
-/// Most steps of it.
-const SELF_STEPS: usize = 200;
 
 /// Leads an arm, and keeps account.
 pub(in crate::planners) struct LocalPlanner<'a> {
@@ -39,7 +25,7 @@ pub(in crate::planners) struct LocalPlanner<'a> {
 impl<'a> LocalPlanner<'a> {
     pub(in crate::planners) fn new(scene: &'a Scene, budget: Budget<'a>, seed: u64) -> Self {
         let [_, reach] = scene.arm().reach();
-        let contacts = Penetration::new(scene, MARGIN * reach);
+        let contacts = Penetration::new(scene, SETTINGS.margin * reach);
         Self { scene, budget, contacts, rng: ChaCha8Rng::seed_from_u64(seed), kept: None }
     }
 
@@ -83,8 +69,9 @@ impl<'a> LocalPlanner<'a> {
         let [_, reach] = self.scene.arm().reach();
         let most = particles * iterations;
         self.budget.spend(most)?;
-        let settings = InverseSwarmSettings { particles, iterations, tolerance: NEAR_ENOUGH * reach };
-        let previous = Previous { q: around, radius, weight: NEARNESS * reach * reach };
+        let settings =
+            InverseSwarmSettings { particles, iterations, tolerance: SETTINGS.near_enough * reach };
+        let previous = Previous { q: around, radius, weight: SETTINGS.nearness * reach * reach };
         let seed = self.rng.next_u64();
         let contacts = &self.contacts;
         let mut in_contact = |q: &[f64]| contacts.violation(q);
@@ -125,16 +112,16 @@ impl<'a> LocalPlanner<'a> {
         let (start, end) = (self.tip(from), self.tip(to));
         let mut places: Vec<Configuration> = Vec::new();
         let mut at = Configuration::from(from);
-        for _ in 0..SELF_STEPS {
+        for _ in 0..SETTINGS.self_steps {
             let widest = at.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
-            if widest <= SELF_STEP {
+            if widest <= SETTINGS.self_step {
                 if self.connects(&at, to)? {
                     places.push(to.into());
                     return Ok(Some(places));
                 }
                 return Ok(None);
             }
-            let share = SELF_STEP / widest;
+            let share = SETTINGS.self_step / widest;
             let near = at.lerp(to, share);
             let tip = self.tip(&at).lerp(end, share);
             // Back onto the straight way, should the tip be off it.

@@ -5,6 +5,7 @@ mod gather;
 mod inverse_swarm;
 mod local_planner;
 mod navigation;
+mod settings;
 mod shorten;
 mod trees;
 

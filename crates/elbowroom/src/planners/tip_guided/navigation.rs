@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::settings::SETTINGS;
 use crate::arm::{Arm, Configuration, JointLimits};
 use crate::geometry::{Point, Segment};
 use crate::grid::Grid;
@@ -11,18 +12,6 @@ use crate::search::{Dstar, Graph, Until};
 
 /// Cells between two samples at the monitor while the map is made.
 const CELLS_PER_LOOK: usize = 4_096;
-
-/// Within how many half widths of an obstacle, and no less than grid steps, a cell is the costlier the nearer it lies.
-const NEAR: f64 = 3.0;
-
-/// How often as much a cell costs right at an obstacle.
-const NEAR_COST: f64 = 3.0;
-
-/// How often as much a cell costs each time the arm could not pass it.
-const PENALTY: f64 = 4.0;
-
-/// Beyond this a cell is not made costlier.
-const COSTLIEST: f64 = 1e4;
 
 /// Cells where the tip alone would be free, and what a step costs there.
 #[derive(Debug, Clone)]
@@ -155,8 +144,8 @@ impl NavigationFunction {
             for row in row.saturating_sub(rings)..=(row + rings).min(grid.rows() - 1) {
                 let at = grid.cell(column, row);
                 let weight = &mut self.cells.weight[at];
-                if *weight < COSTLIEST {
-                    *weight *= PENALTY;
+                if *weight < SETTINGS.costliest {
+                    *weight *= SETTINGS.penalty;
                     penalised.push(at);
                 }
             }
@@ -169,7 +158,7 @@ impl NavigationFunction {
 fn weights(scene: &Scene, monitor: &dyn Monitor) -> Result<Vec<f64>, PlanError> {
     let [nearest, farthest] = reach(scene.arm());
     let width = scene.arm().half_width();
-    let near = NEAR * width.max(scene.grid().step());
+    let near = SETTINGS.near_obstacles * width.max(scene.grid().step());
     let mut weights = Vec::with_capacity(scene.grid().len());
     for cell in 0..scene.grid().len() {
         if cell % CELLS_PER_LOOK == 0 && !monitor.keep_going() {
@@ -187,7 +176,7 @@ fn weights(scene: &Scene, monitor: &dyn Monitor) -> Result<Vec<f64>, PlanError> 
         weights.push(if clearance <= 0.0 {
             f64::INFINITY
         } else {
-            1.0 + (NEAR_COST - 1.0) * (1.0 - clearance / near).max(0.0)
+            1.0 + (SETTINGS.near_cost - 1.0) * (1.0 - clearance / near).max(0.0)
         });
     }
     Ok(weights)

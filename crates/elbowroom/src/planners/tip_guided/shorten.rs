@@ -1,18 +1,10 @@
 //! A certified path made cheaper: straight joint motions in place of detours.
 
 use super::local_planner::LocalPlanner;
+use super::settings::SETTINGS;
 use crate::arm::{Arm, Configuration, joint_distance};
 use crate::path::{JointPath, simplify};
 use crate::planning::{Exhausted, Objective, motion_limits};
-
-/// Shortcuts tried for each path.
-const TRIES: usize = 250;
-
-/// Tries without a gain after which it ends.
-const PATIENCE: usize = 60;
-
-/// Places nearer to the path than this, in grid steps, do not count for its estimated time.
-const TOLERANCE: f64 = 0.1;
 
 /// What `path` promises to cost in terms of `objective`.
 pub(in crate::planners) fn estimated_cost(
@@ -22,7 +14,7 @@ pub(in crate::planners) fn estimated_cost(
     grid_step: f64,
 ) -> f64 {
     let corners = || {
-        let kept = simplify(arm, &path.0, TOLERANCE * grid_step);
+        let kept = simplify(arm, &path.0, SETTINGS.tolerance * grid_step);
         kept.into_iter().map(|i| path.0[i].clone()).collect()
     };
     objective.estimate(&motion_limits(arm).0, || path.tip_travel(arm), || path.length(), corners)
@@ -39,8 +31,8 @@ pub(in crate::planners) fn shortened(
 ) -> Result<JointPath, Exhausted> {
     let arm = local.scene.arm();
     let mut idle = 0;
-    for _ in 0..TRIES {
-        if path.len() < 2 || idle == PATIENCE {
+    for _ in 0..SETTINGS.shortcuts {
+        if path.len() < 2 || idle == SETTINGS.shortcut_patience {
             break;
         }
         idle += 1;

@@ -5,42 +5,10 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use super::local_planner::LocalPlanner;
 use super::navigation::NavigationFunction;
+use super::settings::SETTINGS;
 use crate::arm::{Arm, Configuration, lerp};
 use crate::geometry::Point;
 use crate::planning::{Endpoints, Exhausted};
-
-/// How far the tip is led in one step at first, as a share of the reach; where that fails, half as far, and so on.
-const STRIDE: f64 = 0.08;
-
-/// Particles and iterations of the swarm that is asked where damped least squares fail.
-const SWARM: [usize; 2] = [12, 15];
-
-/// How far from the configuration before it the swarm looks (rad).
-const RADIUS: f64 = 0.5;
-
-/// Configurations of one cell nearer to each other than this are one (rad).
-const DIFFERENT: f64 = 0.1;
-
-/// How far joints are perturbed for self-motion (rad).
-const SHAKE: f64 = 0.5;
-
-/// Greatest turn of a joint in one step between configurations (rad).
-const TURN: f64 = 0.25;
-
-/// Least distance from the goals by the guide, in strides, at which the tip is led to the goal itself.
-const NEAR: f64 = 3.0;
-
-/// Rings of cells around one that could not be reached, which are made costlier with it.
-const PENALISED: usize = 3;
-
-/// What each try from a configuration costs it in the queue, in strides.
-const TRIED: f64 = 2.0;
-
-/// Random share of a place in the queue, so that another seed finds another path.
-const JITTER: f64 = 0.1;
-
-/// Of so many steps of a tree one explores without the guide.
-const EXPLORE_EVERY: usize = 3;
 
 struct Node {
     q: Configuration,
@@ -104,7 +72,7 @@ impl<'a> Trees<'a> {
             } else {
                 (&mut from_goals, &mut from_starts)
             };
-            let explores = (turn / 2) % EXPLORE_EVERY == EXPLORE_EVERY - 1;
+            let explores = (turn / 2) % SETTINGS.explore_every == SETTINGS.explore_every - 1;
             let new = if explores { growing.explore(local)? } else { growing.follow(local)? };
             let Some(new) = new else { continue };
             if let Some(tip) = self.tips[usize::from(!forward)]
@@ -148,7 +116,7 @@ impl Tree {
         let Some(cell) = self.guide.cell(local.tip(&q)) else { return Ok(None) };
         let arm = local.scene.arm();
         let there = self.by_cell.entry(cell).or_default();
-        if there.iter().any(|&other| arm.distance(&self.nodes[other].q, &q) < DIFFERENT) {
+        if there.iter().any(|&other| arm.distance(&self.nodes[other].q, &q) < SETTINGS.different) {
             return Ok(None);
         }
         let node = self.nodes.len();
@@ -161,8 +129,8 @@ impl Tree {
     fn push(&mut self, local: &mut LocalPlanner<'_>, node: usize) -> Result<(), Exhausted> {
         let Node { cell, tried, .. } = self.nodes[node];
         self.guide.repair(cell, local.budget.monitor)?;
-        let penalty = TRIED * STRIDE * local.scene.arm().reach()[1] * tried as f64;
-        let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + JITTER * local.unit());
+        let penalty = SETTINGS.tried * SETTINGS.stride * local.scene.arm().reach()[1] * tried as f64;
+        let key = (self.guide.cost_to_go(cell) + penalty) * (1.0 + SETTINGS.jitter * local.unit());
         // Never negative, so that its bits sort as it does.
         self.queue.push(Reverse((key.to_bits(), node)));
         Ok(())
@@ -178,9 +146,9 @@ impl Tree {
         };
         self.guide.repair(cell, local.budget.monitor)?;
         let reach = local.scene.arm().reach()[1];
-        let mut steps = ((STRIDE * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
+        let mut steps = ((SETTINGS.stride * reach / local.scene.grid().step()).round() as usize).clamp(1, 64);
         // After the first try, from elsewhere on the self-motion.
-        let near = if tried == 1 { from.clone() } else { local.perturbed(&from, SHAKE) };
+        let near = if tried == 1 { from.clone() } else { local.perturbed(&from, SETTINGS.shake) };
         let mut found = None;
         loop {
             let tip = self.guide.point(self.guide.ahead(cell, steps));
@@ -193,9 +161,9 @@ impl Tree {
         if found.is_none() {
             let target = self.guide.ahead(cell, 2);
             let tip = self.guide.point(target);
-            found = local.by_swarm(&from, &near, tip, RADIUS, SWARM)?;
+            found = local.by_swarm(&from, &near, tip, SETTINGS.radius, SETTINGS.swarm)?;
             if found.is_none() {
-                self.guide.penalise(target, PENALISED);
+                self.guide.penalise(target, SETTINGS.penalised);
             }
         }
         self.push(local, node)?;
@@ -210,7 +178,7 @@ impl Tree {
         if local.unit() < 0.5 {
             let node = local.below(self.nodes.len());
             let from = self.nodes[node].q.clone();
-            let (near, tip) = (local.perturbed(&from, SHAKE), local.tip(&from));
+            let (near, tip) = (local.perturbed(&from, SETTINGS.shake), local.tip(&from));
             return match local.by_least_squares(&from, &near, tip)? {
                 Some(q) => self.insert(local, q, Some(node)),
                 None => Ok(None),
@@ -262,7 +230,8 @@ impl Tree {
         tip: Point,
     ) -> Result<Option<usize>, Exhausted> {
         let (from, cell) = (self.nodes[node].q.clone(), self.nodes[node].cell);
-        let far = local.tip(&from).distance(tip) > NEAR * STRIDE * local.scene.arm().reach()[1];
+        let far = local.tip(&from).distance(tip)
+            > SETTINGS.near_goal * SETTINGS.stride * local.scene.arm().reach()[1];
         if far {
             return Ok(None);
         }
@@ -283,8 +252,8 @@ impl Tree {
 /// From `from` towards `to`, by one step.
 fn step(from: &[f64], to: &[f64]) -> Configuration {
     let widest = from.iter().zip(to).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
-    if widest <= TURN {
+    if widest <= SETTINGS.turn {
         return to.into();
     }
-    lerp(from, to, TURN / widest)
+    lerp(from, to, SETTINGS.turn / widest)
 }
