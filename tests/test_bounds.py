@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import elbowroom as er
@@ -96,3 +97,24 @@ def test_a_locked_joint_is_no_proof(standin: er.Scene) -> None:
     scene = er.Scene(arm=arm, grid=standin.grid, tasks={"turn": task})
     with pytest.raises(er.NotFound):
         er.plan(scene, planner="optimal", objective="joint")
+
+
+def test_without_obstacles_the_bound_of_time_is_what_ruckig_needs() -> None:
+    ruckig = pytest.importorskip("ruckig")
+    draw = np.random.default_rng(7)
+    grid = er.Grid(x=(-1.0, 1.0), y=(-1.0, 1.0), step=0.5)
+    for links in (2, 3, 4):
+        for _ in range(12):
+            limits = 10.0 ** draw.uniform(-0.5, 1.5, (3, links))
+            start, goal = draw.uniform(-2.0, 2.0, (2, links))
+            joints = [er.Joint(min=-3.0, max=3.0, velocity=v, acceleration=a, jerk=j) for v, a, j in limits.T]
+            arm = er.Arm(links=[0.5 / links] * links, joints=joints)
+            task = er.Task(start=er.Configuration(tuple(start)), goal=er.Configuration(tuple(goal)))
+            bound = er.plan(er.Scene(arm=arm, grid=grid, tasks={"go": task}), objective="time").lower_bound
+            asked = ruckig.InputParameter(links)
+            asked.current_position, asked.target_position = list(start), list(goal)
+            asked.max_velocity, asked.max_acceleration, asked.max_jerk = (list(row) for row in limits)
+            found = ruckig.Trajectory(links)
+            ruckig.Ruckig(links).calculate(asked, found)
+            assert bound == pytest.approx(found.duration, rel=1e-4)
+            assert bound <= found.duration

@@ -14,15 +14,15 @@ use std::ops::RangeInclusive;
 use std::sync::Mutex;
 
 use chain_judge::assert_true;
-use elbowroom::arm::Configuration;
+use elbowroom::arm::{Configuration, Joint, MotionLimits};
 use elbowroom::path::JointPath;
 use elbowroom::planners::{DstarPlanner, OptimalPlanner};
 use elbowroom::planning::{
-    Candidate, Effort, Found, Mismatch, Pace, Pick, Plan, PlanError, PlanSettings, Planner, Problem, Round,
-    Unwatched, plan,
+    Candidate, Effort, Found, Mismatch, Objective, Pace, Pick, Plan, PlanError, PlanSettings, Planner,
+    Problem, Round, Unwatched, plan,
 };
 use elbowroom::scene::{Place, Scene, TaskPosture};
-use elbowroom::trajectory::{Motion, fastest_durations, quintic_through, vias_at};
+use elbowroom::trajectory::{Motion, Piece, fastest_durations, quintic_through, vias_at};
 use elbowroom::verify::Violation;
 
 /// Hands back whatever it was made with.
@@ -167,6 +167,57 @@ fn a_safe_motion_that_does_not_do_the_task_is_found_out() {
         }
         other => panic!("{other:?}"),
     }
+}
+
+/// From `START` to `GOAL`, three pieces, the first and last of constant acceleration.
+fn abrupt(duration: f64) -> Motion {
+    let (way, third) = (GOAL[0] - START[0], duration / 3.0);
+    let acceleration = way * 6.0 / (13.0 * third * third);
+    let speed = acceleration * third;
+    // Acceleration falls evenly in the middle, so that it does not jump there.
+    let terms = [
+        [START[0], 0.0, acceleration / 2.0, 0.0, 0.0, 0.0],
+        [
+            START[0] + acceleration * third * third / 2.0,
+            speed,
+            acceleration / 2.0,
+            -acceleration / (3.0 * third),
+            0.0,
+            0.0,
+        ],
+        [0.0; 6],
+    ];
+    let middle = &terms[1];
+    let end = middle[0] + third * (middle[1] + third * (middle[2] + third * middle[3]));
+    let last = [end, speed, -acceleration / 2.0, 0.0, 0.0, 0.0];
+    let pieces = [terms[0], terms[1], last].into_iter().enumerate().map(|(i, first)| Piece {
+        start: third * i as f64,
+        duration: third,
+        coefficients: vec![first, [START[1], 0.0, 0.0, 0.0, 0.0, 0.0]],
+    });
+    Motion::new(pieces.collect()).unwrap()
+}
+
+#[test]
+fn a_motion_that_jumps_into_acceleration_is_none_where_jerk_is_limited_and_no_bound_regards_it_elsewhere() {
+    let scene = scene(TaskPosture::Any);
+    let fast = PlanSettings { objective: Objective::Time, ..PlanSettings::default() };
+    let planned = |duration: f64| asked(&scene, &one(Candidate::motion(abrupt(duration))), &fast).unwrap();
+    // Beyond the limits that were assumed, and within all of them but the jerk at its ends.
+    for (duration, kept) in [(0.1, 0), (20.0, 2)] {
+        let plan = planned(duration);
+        assert!((plan.cost() - duration).abs() < 1e-12);
+        // The second joint is at rest.
+        assert_eq!(plan.record().assumed_limits.len(), kept + 3, "{:?}", plan.record().assumed_limits);
+        assert_eq!(plan.lower_bound(), None);
+    }
+    let joint =
+        Joint { motion: MotionLimits { jerk: Some(1e6), ..MotionLimits::default() }, ..Joint::CONTINUOUS };
+    let limited = scene.with_arm(build::arm_of(&[0.5, 0.5], 0.0, &[joint; 2])).unwrap();
+    let Mismatch::Accelerating { end: "start", acceleration } = mismatch(&limited, abrupt(20.0)) else {
+        panic!()
+    };
+    assert!((acceleration - (GOAL[0] - START[0]) * 6.0 / (13.0 * (20.0_f64 / 3.0).powi(2))).abs() < 1e-12);
 }
 
 #[test]

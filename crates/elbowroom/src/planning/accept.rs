@@ -6,7 +6,7 @@ use super::made::{Made, followed, mismatched};
 use super::shaping::{best_of, shapes};
 use super::smoothing::{SmoothError, Smoothed, smooth};
 use super::{
-    AssumedLimit, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage, mismatch,
+    AssumedLimit, END_ROUNDING, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage, mismatch,
 };
 use crate::trajectory::Motion;
 use crate::verify::{Trajectory, VerifySettings};
@@ -87,11 +87,15 @@ pub(super) fn accepted(
 /// The limits that were assumed and that the motion keeps: one that takes as long as it was asked to may go beyond them, which
 /// only the scene could forbid.
 fn kept(assumed: &[AssumedLimit], trajectory: &Trajectory) -> Vec<AssumedLimit> {
-    let margins = &trajectory.verdict().motion_margins;
+    let (margins, motion) = (&trajectory.verdict().motion_margins, trajectory.motion());
+    let ends = [motion.start(), motion.end()].map(|time| motion.at(time).acceleration);
     let keeps = |limit: &&AssumedLimit| {
+        // An acceleration out of nothing is a jerk beyond any limit.
+        let jumps = |end: &Vec<f64>| limit.rate == "jerk" && end[limit.joint - 1].abs() > END_ROUNDING;
         margins[limit.joint - 1]
             .of(limit.rate)
             .is_some_and(|margin| margin.largest <= limit.value * (1.0 + SAME_COST))
+            && !ends.iter().any(jumps)
     };
     assumed.iter().filter(keeps).copied().collect()
 }

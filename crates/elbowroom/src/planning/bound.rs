@@ -2,13 +2,13 @@
 
 use super::limits::stated_limits;
 use super::{Endpoints, Monitor, NoPath, Objective, Pace, PlanError, Problem, Stage};
-use crate::arm::JointLimits;
+use crate::arm::{Configuration, JointLimits};
 use crate::decomposition::{Approximation, JointSpaceCells, branch_ranges, workspace_cells};
 use crate::geometry::wrap_angle;
-use crate::mesh::{Measure, MeshPoint};
-use crate::scene::TwoLinkScene;
+use crate::mesh::MeshPoint;
+use crate::scene::{Place, TwoLinkScene};
 use crate::trajectory::SpeedLimits;
-use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_joints, bound_over_tips};
+use crate::verify::{BoundError, OpenJoints, OpenTips, Reachability, bound_over_tips};
 
 /// What was proved of a task.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,14 +24,12 @@ enum Proved {
 /// How far inside the obstacles walls are tried, one after the other, as shares of what was asked.
 const TRIED: [f64; 3] = [1.0, 0.3, 3.0];
 
-/// The least that any motion of `problem` costs in terms of its objective, with walls at `distance` (rad); `None` where nothing
-/// was proved, and for arms of more links than two.
+/// The least that any motion of `problem` costs in terms of its objective, with walls at `distance` (rad) for two links; `None` where
+/// nothing was proved.
 ///
 /// # Errors
 /// [`PlanError::NoPath`], [`PlanError::Stopped`]
 pub(crate) fn least_cost(problem: &Problem<'_>, distance: f64) -> Result<Option<f64>, PlanError> {
-    let Ok(scene) = problem.scene.two_link() else { return Ok(None) };
-    problem.monitor.stage(Stage::Bound);
     // A duration that was asked for regards only the limits that the scene states.
     let stated;
     let limits = match problem.settings.pace {
@@ -41,10 +39,31 @@ pub(crate) fn least_cost(problem: &Problem<'_>, distance: f64) -> Result<Option<
             &stated
         }
     };
+    let Ok(scene) = problem.scene.two_link() else { return Ok(straight(problem, limits)) };
+    problem.monitor.stage(Stage::Bound);
     match prove(scene, &problem.endpoints, problem.settings.objective, limits, distance, problem.monitor)? {
         Proved::NoPath(proof) => Err(PlanError::NoPath(proof)),
         Proved::AtLeast(cost) => Ok(Some(cost)),
-        Proved::Nothing => Ok(None),
+        Proved::Nothing => Ok(straight(problem, limits)),
+    }
+}
+
+/// What start and goal alone tell; `None` where they are not known as configurations and would have to be.
+fn straight(problem: &Problem<'_>, limits: &[SpeedLimits]) -> Option<f64> {
+    let (scene, task, ends) = (problem.scene, problem.task, &problem.endpoints);
+    let least = |starts: &[Place], goals: &[Place]| {
+        let pairs = starts.iter().flat_map(|start| goals.iter().map(move |goal| (start, goal)));
+        let between =
+            |(start, goal)| problem.settings.objective.least_between(scene.arm(), limits, start, goal);
+        pairs.map(between).try_fold(f64::INFINITY, |least, cost| Some(least.min(cost?)))
+    };
+    if scene.arm().links() == 2 {
+        let places =
+            |ends: &[Configuration]| ends.iter().cloned().map(Place::Configuration).collect::<Vec<_>>();
+        least(&places(&ends.starts), &places(&ends.goals))
+    } else {
+        // Of a place of the tip only some configurations are known.
+        least(std::slice::from_ref(&task.start), std::slice::from_ref(&task.goal))
     }
 }
 
@@ -60,9 +79,8 @@ fn prove(
     distance: f64,
     monitor: &dyn Monitor,
 ) -> Result<Proved, PlanError> {
-    let measure = objective.measure(limits);
     for share in TRIED {
-        match with_walls(scene, ends, measure, share * distance, &|| monitor.keep_going()) {
+        match with_walls(scene, ends, (objective, limits), share * distance, &|| monitor.keep_going()) {
             Ok(OverJoints::Parted(reachable)) => {
                 let [starts, goals] = ends.pairs();
                 return Ok(Proved::NoPath(NoPath { reachable, starts, goals, clearance: 0.0 }));
@@ -71,7 +89,7 @@ fn prove(
                 return Ok(Proved::AtLeast(if objective.is_in_workspace() {
                     tip_bound(scene, ends, distance, &|| monitor.keep_going())?
                 } else {
-                    objective.of_way(way, limits)
+                    way
                 }));
             }
             Err(BoundError::Stopped) => return Err(PlanError::Stopped),
@@ -117,7 +135,7 @@ enum OverJoints {
 fn with_walls(
     scene: TwoLinkScene<'_>,
     ends: &Endpoints,
-    measure: Measure,
+    (objective, limits): (Objective, &[SpeedLimits]),
     distance: f64,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<OverJoints, BoundError> {
@@ -141,7 +159,7 @@ fn with_walls(
             goals: &goals,
             keeps_posture: ends.keep_posture,
         };
-        match bound_over_joints(scene, &claim, measure, keep_going)? {
+        match objective.least_over_joints(scene, &claim, limits, keep_going)? {
             Reachability::AtLeast { cost, .. } => least = least.min(cost),
             Reachability::Parted => {
                 let reached =

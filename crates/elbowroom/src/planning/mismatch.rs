@@ -41,6 +41,14 @@ pub enum Mismatch {
         /// The greatest of a joint (rad/s).
         velocity: f64,
     },
+    /// It begins or ends while joints accelerate whose jerk is limited.
+    #[error("{}", self.told(Units::SI))]
+    Accelerating {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// The greatest of a joint (rad/s²).
+        acceleration: f64,
+    },
     /// It takes another time than was asked for.
     #[error("the motion takes {} s, {} s were asked for", apart(*takes, *asked)[0], apart(*takes, *asked)[1])]
     Duration {
@@ -79,6 +87,13 @@ impl Told for Mismatch {
                     units.rate_name(1)
                 )
             }
+            Self::Accelerating { end, acceleration } => {
+                let acceleration = measured(units.of_radians(acceleration));
+                format!(
+                    "the motion is not at rest at the {end}: a joint accelerates by {acceleration} {} there",
+                    units.rate_name(2)
+                )
+            }
             _ => self.to_string(),
         }
     }
@@ -100,6 +115,12 @@ pub fn mismatch(scene: &Scene, task: &Task, motion: &Motion, posture_changes: &[
         let velocity = state.velocity.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         if velocity > END_ROUNDING {
             return Some(Mismatch::Turning { end, velocity });
+        }
+        let limited =
+            arm.joints().iter().zip(&state.acceleration).filter(|(joint, _)| joint.motion.jerk.is_some());
+        let acceleration = limited.fold(0.0, |most: f64, (_, rate)| most.max(rate.abs()));
+        if acceleration > END_ROUNDING {
+            return Some(Mismatch::Accelerating { end, acceleration });
         }
     }
     let wanted = match task.posture {

@@ -1,16 +1,24 @@
 //! What a motion shall cost little of: the one file that knows what each objective means, to planners and to bounds.
 
+use super::END_ROUNDING;
 use crate::arm::{Arm, Configuration, joint_distance, lerp};
 use crate::mesh::Measure;
 use crate::optimise::Length;
 use crate::path::JointPath;
+use crate::scene::{Place, TwoLinkScene};
 use crate::trajectory::{Motion, SpeedLimits, fastest_durations, vias_at};
+use crate::verify::{
+    BoundError, OpenJoints, Reachability, bound_over_joints, bound_over_time, least_time_between,
+};
 
 /// By how much a path's tip travel may be above the least and the path still be chosen for what the arm pays, as a share.
 pub const NEARLY_EQUAL: f64 = 0.01;
 
 /// What joint travel weighs where tip travel counts, as a share of the reach (m/rad): enough against needless self-motion.
 const JOINT_SHARE: f64 = 0.02;
+
+/// Share of a straight way that is given away for rounding.
+const STRAIGHT_ROUNDING: f64 = 1e-9;
 
 /// What a motion shall cost little of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -157,6 +165,11 @@ impl Objective {
         matches!(self, Self::Time)
     }
 
+    /// Whether the motion limits matter to it.
+    pub(crate) const fn regards_limits(self) -> bool {
+        matches!(self, Self::Time)
+    }
+
     /// What a way in the plane of two joints measures: for time (s), that of joints at their greatest velocities all along.
     pub(crate) fn measure(self, limits: &[SpeedLimits]) -> Measure {
         match self {
@@ -173,21 +186,51 @@ impl Objective {
         }
     }
 
-    /// The least that a motion can cost whose way measures no less than `way`; not for one that is measured in the workspace.
-    pub(crate) fn of_way(self, way: f64, limits: &[SpeedLimits]) -> f64 {
+    /// What every motion over what `claim` leaves open costs at least, proved by the verifier; not for one that is measured in the
+    /// workspace.
+    ///
+    /// # Errors
+    /// [`BoundError`]
+    pub(crate) fn least_over_joints(
+        self,
+        scene: TwoLinkScene<'_>,
+        claim: &OpenJoints<'_>,
+        limits: &[SpeedLimits],
+        keep_going: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Reachability, BoundError> {
         match self {
-            Self::Tip | Self::Joint => way,
-            Self::Time => from_rest_to_rest(way, limits),
+            Self::Tip | Self::Joint => bound_over_joints(scene, claim, self.measure(limits), keep_going),
+            Self::Time => bound_over_time(scene, claim, limits, keep_going),
         }
     }
-}
 
-/// The least time (s) in which joints at rest cover a way that takes `way` (s) at greatest speeds and come to rest
-/// again: one of them covers all of it, and has to speed up and slow down. A joint without a maximum speed takes no time.
-fn from_rest_to_rest(way: f64, limits: &[SpeedLimits]) -> f64 {
-    let least = |limit: &SpeedLimits| {
-        let speeding_up = limit.velocity / limit.acceleration;
-        if way >= speeding_up { way + speeding_up } else { 2.0 * (way * speeding_up).sqrt() }
-    };
-    limits.iter().filter(|limit| limit.velocity.is_finite()).map(least).reduce(f64::min).unwrap_or(0.0)
+    /// What every motion from rest at `start` to rest at `goal`, or as near as motions have to be, costs at least, whatever is in the
+    /// way; `None` where that takes configurations and a place is one of the tip's.
+    pub(crate) fn least_between(
+        self,
+        arm: &Arm,
+        limits: &[SpeedLimits],
+        start: &Place,
+        goal: &Place,
+    ) -> Option<f64> {
+        let less = |way: f64, away: f64| (way * (1.0 - STRAIGHT_ROUNDING) - 2.0 * away).max(0.0);
+        let tip = |place: &Place| match place {
+            Place::Tip(tip) => *tip,
+            Place::Configuration(q) => arm.tip(q),
+        };
+        match (self, start, goal) {
+            // The tip is no farther away than all joints may bring it.
+            (Self::Tip, _, _) => {
+                let away = END_ROUNDING * arm.lengths().iter().sum::<f64>() * arm.links() as f64;
+                Some(less(tip(start).distance(tip(goal)), away.max(END_ROUNDING)))
+            }
+            (Self::Joint, Place::Configuration(start), Place::Configuration(goal)) => {
+                Some(less(arm.distance(start, goal), END_ROUNDING * (arm.links() as f64).sqrt()))
+            }
+            (Self::Time, Place::Configuration(start), Place::Configuration(goal)) => {
+                Some(least_time_between(arm, limits, start, goal, END_ROUNDING))
+            }
+            _ => None,
+        }
+    }
 }

@@ -4,8 +4,8 @@ use super::accept::accepted;
 use super::bound::least_cost;
 use super::plan::check_bound;
 use super::{
-    Candidate, Effort, Found, Monitor, PathToFollow, Pick, Plan, PlanError, PlanSettings, Planner, Problem,
-    Round,
+    Candidate, Effort, Found, Monitor, Pace, PathToFollow, Pick, Plan, PlanError, PlanSettings, Planner,
+    Problem, Round,
 };
 use crate::path::JointPath;
 use crate::scene::{Scene, Task};
@@ -74,7 +74,10 @@ fn searched(problem: &Problem<'_>, planner: &dyn Planner) -> Result<Plan, PlanEr
             Err(PlanError::Stopped) if best.is_some() => break,
             Err(error) => return Err(error),
         }
-        best = best.map(|plan| plan.with_lower_bound(lower_bound));
+        best = best.map(|plan| {
+            let is_concerned = concerns(problem, &plan);
+            plan.with_lower_bound(lower_bound.filter(|_| is_concerned))
+        });
         let reached = |plan: &Plan| {
             problem.settings.gap.is_none_or(|gap| plan.gap().is_some_and(|reached| reached <= gap))
         };
@@ -87,4 +90,12 @@ fn searched(problem: &Problem<'_>, planner: &dyn Planner) -> Result<Plan, PlanEr
         check_bound(plan.cost(), bound)?;
     }
     Ok(plan)
+}
+
+/// Whether what was proved holds for the motion of `plan`: a bound on time regards the limits that were assumed as well, and a
+/// motion of another's making may go beyond them.
+fn concerns(problem: &Problem<'_>, plan: &Plan) -> bool {
+    problem.settings.pace != Pace::Fastest
+        || !problem.settings.objective.regards_limits()
+        || plan.record().assumed_limits.len() == problem.assumed_limits.len()
 }

@@ -9,7 +9,7 @@ use crate::mesh::{Geodesic, Measure, MeshPoint, NavigationMesh, geodesic};
 use crate::scene::TwoLinkScene;
 
 /// Rounding that an angle may have gone through on its way to a place (rad).
-const ANGLE_ROUNDING: f64 = 1e-9;
+pub(super) const ANGLE_ROUNDING: f64 = 1e-9;
 
 /// Share of a bound that is given away for the rounding of sums.
 pub(super) const SUM_ROUNDING: f64 = 1e-9;
@@ -97,6 +97,23 @@ pub fn bound_over_joints(
     measure: Measure,
     keep_going: &(dyn Fn() -> bool + Sync),
 ) -> Result<Reachability, BoundError> {
+    let Some(open) = proved_open(scene, claim, keep_going)? else { return Ok(Reachability::Parted) };
+    cheapest(claim.mesh, &open, measure, keep_going)
+}
+
+/// A claim that was borne out: where its motions begin and may end.
+pub(super) struct Open {
+    pub(super) starts: Vec<MeshPoint>,
+    pub(super) goals: Vec<MeshPoint>,
+    images: Vec<Point>,
+}
+
+/// Looks at all that `claim` says; `None` where walls part all starts from all goals.
+pub(super) fn proved_open(
+    scene: TwoLinkScene<'_>,
+    claim: &OpenJoints<'_>,
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Open>, BoundError> {
     for (q, place) in claim.starts {
         if !stands_at(scene, q, place, claim.mesh) {
             return Err(BoundError::Place { q: *q });
@@ -121,10 +138,20 @@ pub fn bound_over_joints(
     let images = images(scene, mesh, &angles);
     let goals = places_of(mesh, &reached, &images);
     if goals.is_empty() {
-        return Ok(Reachability::Parted);
+        return Ok(None);
     }
-    let starts: Vec<MeshPoint> = claim.starts.iter().map(|(_, place)| *place).collect();
-    let Some(path) = geodesic(mesh, &starts, &goals, measure, &images, keep_going) else {
+    let starts = claim.starts.iter().map(|(_, place)| *place).collect();
+    Ok(Some(Open { starts, goals, images }))
+}
+
+/// The cheapest path over what is open.
+pub(super) fn cheapest(
+    mesh: &NavigationMesh,
+    open: &Open,
+    measure: Measure,
+    keep_going: &(dyn Fn() -> bool + Sync),
+) -> Result<Reachability, BoundError> {
+    let Some(path) = geodesic(mesh, &open.starts, &open.goals, measure, &open.images, keep_going) else {
         return Err(if keep_going() { BoundError::Lost } else { BoundError::Stopped });
     };
     let rounding = 2.0 * measure.of(Vector::new(ANGLE_ROUNDING, ANGLE_ROUNDING));

@@ -8,6 +8,8 @@
 mod bernstein;
 mod blocked;
 mod bound;
+mod bound_ends;
+mod bound_time;
 mod bound_tips;
 mod check;
 mod clearance;
@@ -18,6 +20,7 @@ mod moving;
 mod pairs;
 mod peak;
 mod posture_changes;
+mod progress;
 mod settings;
 mod sweep;
 mod trajectory;
@@ -25,6 +28,8 @@ mod verdict;
 
 pub(crate) use bound::images;
 pub use bound::{BoundError, OpenJoints, Reachability, bound_over_joints};
+pub(crate) use bound_ends::least_time_between;
+pub use bound_time::bound_over_time;
 pub(crate) use bound_tips::innermost_reach;
 pub use bound_tips::{OpenTips, bound_over_tips};
 pub(crate) use check::clear_until;

@@ -2,6 +2,7 @@
 //! A path over the grid is a motion, so that no bound may be above it, and none may exist where one is denied.
 
 #![expect(clippy::print_stdout, reason = "a campaign reports its figures")]
+#![expect(clippy::unwrap_used, reason = "a judge that fails may panic")]
 
 mod brute_force;
 #[path = "../worlds/build.rs"]
@@ -12,6 +13,7 @@ mod distance;
 #[path = "../judge/mod.rs"]
 #[expect(dead_code, reason = "shared between tests")]
 mod judge;
+mod time;
 #[path = "../worlds/mod.rs"]
 mod worlds;
 
@@ -245,4 +247,13 @@ fn the_tip_goes_round_what_the_second_joint_keeps_it_out_of() {
 fn ten_thousand_worlds() {
     let seeds: u64 = std::env::var("WORLDS").map_or(10_000, |text| text.parse().unwrap());
     println!("{:?}", campaign(0..seeds, 90));
+}
+
+#[test]
+#[ignore = "two hours: make campaign"]
+fn bounds_on_duration_of_ten_thousand_worlds() {
+    let seeds: u64 = std::env::var("WORLDS").map_or(10_000, |text| text.parse().unwrap());
+    let [unhindered, others] = time::gaps(0..seeds);
+    println!("nothing in the way: {}", time::quantiles(&unhindered));
+    println!("elsewhere: {}", time::quantiles(&others));
 }
