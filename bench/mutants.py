@@ -31,9 +31,11 @@ FRAME_TESTS = ("plan", "custom_planner", "mechanisms", "swarm_planners", "chain_
 TESTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     # Module as the page names it, beginning of its files, tests; the first row that fits counts. `lib:search` is the
     # tests that stand beside the code in `search`.
-    ("verify", "verify/bound", ("bound",)),
+    ("verify", "verify/bound", ("lib:verify", "bound")),
+    ("verify", "verify/progress", ("lib:verify", "bound")),
     ("verify", "verify/blocked", ("bound",)),
     ("verify", "verify/", ("lib:verify", "verify", "verify_chain", "verify_moving", "verify_dense")),
+    ("trajectory", "trajectory/least_time", ("least_time",)),
     ("trajectory", "trajectory/peak", ("lib:trajectory", "trajectory", "departure")),
     ("trajectory", "trajectory/b_spline", ("lib:trajectory", "trajectory", "departure")),
     ("trajectory", "trajectory/", ("trajectory", "departure")),

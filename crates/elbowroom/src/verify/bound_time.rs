@@ -184,3 +184,33 @@ fn least_time_to_image(way: &Progress, goal: f64, joint: &Joint, limits: &SpeedL
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_says_nothing_of_one_that_came_to_the_cell_in_another_turn() {
+        let way = |turns: f64| Way {
+            cell: 0,
+            back: Vector::new(turns * TAU, 0.0),
+            joints: [Progress::new(0.0), Progress::new(0.0)],
+        };
+        assert!(way(1.0).is_implied_by(&way(1.0)));
+        assert!(!way(0.0).is_implied_by(&way(1.0)) && !way(0.0).is_implied_by(&way(-1.0)));
+    }
+
+    #[test]
+    fn both_joints_at_once_take_the_start_of_the_quicker_one() {
+        let limits = |acceleration: f64, jerk: f64| SpeedLimits { velocity: 2.0, acceleration, jerk };
+        let quickest = SpeedLimits { velocity: 1.0, acceleration: 4.0, jerk: 10.0 };
+        let time = coupled(3.0, &[limits(8.0, 15.0), limits(6.0, 20.0)]);
+        assert!((time - 2.0 * least_time_of_start(1.5, &quickest)).abs() < 1e-12);
+        // What has no velocity limit takes no part in the length of the way.
+        let free = SpeedLimits { velocity: f64::INFINITY, ..limits(1e9, 1e9) };
+        assert!(
+            (coupled(3.0, &[limits(8.0, 20.0), free]) - 2.0 * least_time_of_start(1.5, &quickest)).abs()
+                < 1e-12
+        );
+    }
+}
