@@ -36,8 +36,8 @@ tables: setup
 table2: setup
 	$(BIN)/python -m bench.table2
 
-# Safety at length: 100,000 random worlds, a million edges and pieces, 10,000 worlds by brute force, and 10,000 episodes
-# among moving discs; an hour and a half on two cores.
+# Safety at length: 100,000 random worlds, a million edges and pieces, 10,000 worlds by brute force and by their fastest motions, and
+# 10,000 episodes among moving discs; two hours on two cores.
 campaign:
 	cargo test --release -p elbowroom --test campaign -- --ignored --nocapture --test-threads 1
 	cargo test --release -p elbowroom --test bound -- --ignored --nocapture

@@ -6,7 +6,8 @@ use super::made::{Made, followed, mismatched};
 use super::shaping::{best_of, shapes};
 use super::smoothing::{SmoothError, Smoothed, smooth};
 use super::{
-    AssumedLimit, END_ROUNDING, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage, mismatch,
+    AssumedLimit, END_ROUNDING, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
+    mismatch,
 };
 use crate::trajectory::Motion;
 use crate::verify::{Trajectory, VerifySettings};

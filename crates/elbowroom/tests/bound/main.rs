@@ -250,7 +250,7 @@ fn ten_thousand_worlds() {
 }
 
 #[test]
-#[ignore = "two hours: make campaign"]
+#[ignore = "twenty minutes: make campaign"]
 fn bounds_on_duration_of_ten_thousand_worlds() {
     let seeds: u64 = std::env::var("WORLDS").map_or(10_000, |text| text.parse().unwrap());
     let [unhindered, others] = time::gaps(0..seeds);
