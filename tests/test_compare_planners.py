@@ -168,7 +168,7 @@ def test_what_becomes_of_planners(scenes: Path) -> None:
     assert "touches obstacle" in (unsafe.message or "")
     assert unsafe.least_clearance_m is not None
     assert unsafe.least_clearance_m < 0.0
-    elsewhere = once("detour:by=0.002", scene)
+    elsewhere = once("detour:by=0.00002", scene)
     assert (elsewhere.found, elsewhere.success, elsewhere.safe, elsewhere.failure) == (True, False, True, "wrong_end")
     late = once("dstar", scene, timeout=0.0)
     assert (late.failure, late.found) == ("timed_out", False)

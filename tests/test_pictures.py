@@ -123,12 +123,12 @@ def test_the_least_clearance_is_where_it_is(pick: er.Plan) -> None:
     [mark] = [line for line in axes.get_lines() if str(line.get_label()).startswith("least clearance")]
     least = pick.verdict.least_clearance
     assert least is not None
-    assert "to obstacle 2 (feeder)" in str(mark.get_label())
+    assert "to obstacle 1 (post)" in str(mark.get_label())
     x, y = np.array(mark.get_data()).ravel()
-    # From there it is the clearance and the link's radius to the feeder, a box.
-    box = np.array(pick.scene.obstacles[1].outline[0]) * 1e3
-    low, high = box.min(axis=0), box.max(axis=0)
-    away = math.hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
+    # From there it is the clearance and the link's radius to the post, a circle.
+    post = pick.scene.obstacles[0]
+    assert isinstance(post, er.Circle)
+    away = math.hypot(x - post.center[0] * 1e3, y - post.center[1] * 1e3) - post.radius * 1e3
     assert away == pytest.approx((least.distance + pick.scene.arm.half_width) * 1e3, abs=1.5)
 
 

@@ -39,7 +39,7 @@ def plan_command(
     slack: Annotated[
         float | None,
         number_option(
-            help="With tip or joint: share by which a motion may be longer than the shortest to be faster. Default: 0.005."
+            help="With tip or joint: share by which a motion may be longer than the shortest to be faster (0.005)."
         ),
     ] = None,
     clearance: Annotated[

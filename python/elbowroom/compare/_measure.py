@@ -40,4 +40,6 @@ def lengths(scene: Scene, motion: Motion) -> Lengths:
     angles, turning = np.cumsum(q, axis=1), np.cumsum(v, axis=1)
     links = np.asarray(scene.arm.links)
     speed = np.hypot((links * turning * np.sin(angles)).sum(axis=1), (links * turning * np.cos(angles)).sum(axis=1))
-    return Lengths(float(weights @ speed), float(weights @ np.linalg.norm(v, axis=1)), float(motion.duration))
+    # Not a dot product: how BLAS adds up depends on its threads.
+    tip, joint = (float(np.sum(weights * rate)) for rate in (speed, np.linalg.norm(v, axis=1)))
+    return Lengths(tip, joint, float(motion.duration))

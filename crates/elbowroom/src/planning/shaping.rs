@@ -10,6 +10,10 @@ use crate::optimise::{Constraints, Goal, Length, improved};
 use crate::trajectory::{Motion, SpeedLimits};
 use crate::verify::{Trajectory, VerifySettings};
 
+/// How far within its limits a joint stays (rad), except where a task begins or ends nearer: samples of the motion, interpolated by
+/// others, may overshoot.
+const WITHIN_LIMITS: f64 = 1e-4;
+
 /// Arms of more links keep their motion as it is: one program would take seconds, in which nobody could stop it.
 const MOST_LINKS: usize = 12;
 
@@ -198,7 +202,7 @@ fn doing_the_task(problem: &Problem<'_>, made: &Made, trajectory: Trajectory) ->
 fn ranges(arm: &Arm, keep_posture: bool, start: &[f64]) -> Vec<[f64; 2]> {
     let range = |joint: &Joint| match joint.limits {
         JointLimits::Continuous => [f64::NEG_INFINITY, f64::INFINITY],
-        JointLimits::Range { min, max } => [min, max],
+        JointLimits::Range { min, max } => [min + WITHIN_LIMITS, max - WITHIN_LIMITS],
     };
     let mut ranges: Vec<[f64; 2]> = arm.joints().iter().map(range).collect();
     if let (true, [_, second], [_, bend]) = (keep_posture, &mut ranges[..], start) {
