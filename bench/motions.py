@@ -24,7 +24,7 @@ TASKS: tuple[tuple[str, str, float], ...] = (
 CLEARANCES = (0.0, 0.002, 0.005, 0.01, 0.02, 0.03, 0.04, 0.05)
 """What is asked for (m)."""
 
-WEIGHED = (("abb-irb-910sc-065", "place"), ("narrow", "second"))
+WEIGHED = (("abb-irb-910sc-065", "place"), ("paper-standin", "first"))
 """Scenes and tasks of the curve of clearance and time."""
 
 
