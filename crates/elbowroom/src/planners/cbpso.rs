@@ -120,7 +120,7 @@ impl Planner for CbpsoPlanner {
             }
         }
         let (motion, effort) = incumbent.end()?;
-        Ok(Found::new(vec![Candidate::motion(motion)], Pick::First).with_effort(effort))
+        Ok(Found::new(vec![Candidate::draft(motion)], Pick::First).with_effort(effort))
     }
 }
 

@@ -36,7 +36,9 @@ pub(super) fn accepted(
     for candidate in found.candidates {
         let made = match candidate.0 {
             Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified),
-            Proposed::Motion(motion) => judged(problem, planner, motion),
+            Proposed::Motion { motion, is_draft } => {
+                judged(problem, planner, motion).map(|made| Made { is_ours: is_draft, ..made })
+            }
         };
         let made = match made {
             Ok(made) => made,

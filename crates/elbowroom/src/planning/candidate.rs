@@ -14,11 +14,12 @@ pub struct Candidate(pub(super) Proposed);
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Proposed {
     /// A path whose straight moves are certified free, or have to be.
-    Path {
-        path: PathToFollow,
-        is_certified: bool,
+    Path { path: PathToFollow, is_certified: bool },
+    Motion {
+        motion: Motion,
+        /// Whether it is to be made better, as one along a path is.
+        is_draft: bool,
     },
-    Motion(Motion),
 }
 
 /// A path that a smooth motion is to be led along.
@@ -40,7 +41,12 @@ impl Candidate {
 
     /// This motion, as it is.
     pub fn motion(motion: Motion) -> Self {
-        Self(Proposed::Motion(motion))
+        Self(Proposed::Motion { motion, is_draft: false })
+    }
+
+    /// This motion, to be made better where motions are.
+    pub(crate) fn draft(motion: Motion) -> Self {
+        Self(Proposed::Motion { motion, is_draft: true })
     }
 
     /// A path whose moves were certified as it was found: planners of this crate alone are taken at their word.
@@ -52,7 +58,7 @@ impl Candidate {
     pub(crate) fn into_path(self) -> Option<JointPath> {
         match self.0 {
             Proposed::Path { path, .. } => Some(path.path),
-            Proposed::Motion(_) => None,
+            Proposed::Motion { .. } => None,
         }
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct Made {
     pub(super) path_cost: f64,
     /// Places of the path that the motion is led through, by their index.
     pub(super) vias: Vec<usize>,
-    /// Whether the motion is ours to shape: it is, where a path was proposed.
+    /// Whether the motion is ours to shape: it is, where a path or a draft was proposed.
     pub(super) is_ours: bool,
 }
 

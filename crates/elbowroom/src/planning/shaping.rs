@@ -60,11 +60,11 @@ fn shortest_of(
     length: Length,
     lower_bound: Option<f64>,
 ) -> Result<(Vec<(f64, Made)>, Longest), PlanError> {
-    let mut shortened = Vec::new();
-    for (cost, made) in motions {
+    let shorten = |(cost, made): (f64, Made)| {
         let shorter = better(problem, &made, &problem.limits, Goal::Shortest(length), None)?;
-        shortened.push(shorter.filter(|(shorter, _)| *shorter < cost).unwrap_or((cost, made)));
-    }
+        Ok(shorter.filter(|(shorter, _)| *shorter < cost).unwrap_or((cost, made)))
+    };
+    let mut shortened = each(motions, shorten)?;
     shortened.sort_by(|a, b| a.0.total_cmp(&b.0));
     let Some((least, _)) = shortened.first() else { return Ok((shortened, None)) };
     let mut longest = least * (1.0 + problem.settings.slack);
@@ -85,13 +85,26 @@ fn fastest_of(
     longest: Longest,
 ) -> Result<Option<(f64, Made)>, PlanError> {
     let mut best: Option<(f64, Made)> = None;
-    for motion in motions {
-        let found = faster(problem, motion, longest)?;
+    for found in each(motions, |motion| faster(problem, motion, longest))? {
         if best.as_ref().is_none_or(|(_, known)| duration(&found.1) < duration(known)) {
             best = Some(found);
         }
     }
     Ok(best)
+}
+
+/// What `becomes` of each motion, in their order, on all cores where the pool is compiled in.
+fn each(
+    motions: Vec<(f64, Made)>,
+    becomes: impl Fn((f64, Made)) -> Result<(f64, Made), PlanError> + Send + Sync,
+) -> Result<Vec<(f64, Made)>, PlanError> {
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        motions.into_par_iter().map(becomes).collect()
+    }
+    #[cfg(not(feature = "parallel"))]
+    motions.into_iter().map(becomes).collect()
 }
 
 fn duration(made: &Made) -> f64 {
