@@ -4,7 +4,7 @@ use super::candidate::Proposed;
 use super::limits::stated_limits;
 use super::made::{Made, followed, mismatched};
 use super::shaping::{best_of, shapes};
-use super::smoothing::{SmoothError, Smoothed, smooth};
+use super::smoothing::{SmoothError, Smoothed, Style, smooth};
 use super::{
     AssumedLimit, END_ROUNDING, Found, Pace, PathToFollow, Pick, Plan, PlanError, PlanRecord, Problem, Stage,
     mismatch,
@@ -35,7 +35,7 @@ pub(super) fn accepted(
     let mut ranked: Vec<(f64, Made)> = Vec::new();
     for candidate in found.candidates {
         let made = match candidate.0 {
-            Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified),
+            Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified, lower_bound),
             Proposed::Motion { motion, is_draft } => {
                 judged(problem, planner, motion).map(|made| Made { is_ours: is_draft, ..made })
             }
@@ -117,12 +117,13 @@ fn along(
     planner: &str,
     follow: PathToFollow,
     is_certified: bool,
+    lower_bound: Option<f64>,
 ) -> Result<Made, PlanError> {
     let uncertified = if is_certified { None } else { follow.first_uncertified(problem.scene) };
     if let Some(from) = uncertified {
         return Err(PlanError::Uncertified { planner: planner.to_owned(), from });
     }
-    let smoothed = smoothed(problem, planner, &follow)?;
+    let smoothed = smoothed(problem, planner, &follow, lower_bound)?;
     let path_cost = follow.tip_travel(problem.scene.arm());
     Ok(Made {
         trajectory: smoothed.trajectory,
@@ -133,18 +134,29 @@ fn along(
     })
 }
 
-/// The path, smoothed.
+/// The path, smoothed; with a stop at each corner where only that is as short as the gap asks for.
 fn smoothed(
     problem: &Problem<'_>,
     planner: &str,
     PathToFollow { path, tolerance, .. }: &PathToFollow,
+    lower_bound: Option<f64>,
 ) -> Result<Smoothed, PlanError> {
-    let scene = problem.scene;
+    let (scene, objective) = (problem.scene, problem.settings.objective);
     let pace = if shapes(problem) { Pace::Fastest } else { problem.settings.pace };
     let stated = stated_limits(scene.arm());
     let wanted = (pace, problem.endpoints.keep_posture);
-    smooth(scene, &path.0, &problem.limits, &stated, wanted, *tolerance, problem.monitor)
-        .map_err(|error: SmoothError| error.in_terms_of(planner, pace))
+    let smooth = |style| smooth(scene, &path.0, &problem.limits, &stated, wanted, style, problem.monitor);
+    let flowing = smooth(Style::Flowing { tolerance: *tolerance })
+        .map_err(|error: SmoothError| error.in_terms_of(planner, pace))?;
+    let (Some(gap), Some(bound)) = (problem.settings.gap, lower_bound) else { return Ok(flowing) };
+    let is_too_long = |cost: f64| cost > bound * (1.0 + gap);
+    let own = objective.of_path(scene.arm(), path);
+    if is_too_long(objective.of_motion(scene.arm(), flowing.trajectory.motion()))
+        && own.is_some_and(|own| !is_too_long(own))
+    {
+        return Ok(smooth(Style::StopToStop).unwrap_or(flowing));
+    }
+    Ok(flowing)
 }
 
 /// The motion as it is.

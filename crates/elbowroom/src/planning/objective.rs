@@ -73,6 +73,16 @@ impl Objective {
         }
     }
 
+    /// What straight moves along `path` cost (m or rad), stops at its corners included; `None` for time, which the path does not
+    /// tell.
+    pub fn of_path(self, arm: &Arm, path: &JointPath) -> Option<f64> {
+        match self {
+            Self::Tip => Some(path.tip_travel(arm)),
+            Self::Joint => Some(path.length()),
+            Self::Time => None,
+        }
+    }
+
     /// The length that counts, if one does.
     pub(crate) const fn length(self) -> Option<Length> {
         match self {

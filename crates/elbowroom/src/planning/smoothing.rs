@@ -12,6 +12,18 @@ use crate::verify::{Trajectory, Verdict, VerifySettings, Violation};
 /// Rounds of adding vias; after them every refused stretch becomes straight joint motions from stop to stop.
 const ROUNDS: usize = 24;
 
+/// How a motion begins as.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Style {
+    /// Through as few vias as keep elbow and tip this near to the path, in grid steps; more where the verifier refuses.
+    Flowing {
+        /// In grid steps.
+        tolerance: f64,
+    },
+    /// The path itself: straight joint motions from place to place, with a stop at each.
+    StopToStop,
+}
+
 /// How a motion came to be.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Smoothed {
@@ -53,7 +65,7 @@ impl SmoothError {
 
 /// A motion through places of a path, whose straight joint motions from place to place are certified free.
 ///
-/// Quintic pieces at first, through as few vias as keep elbow and tip within `tolerance` (grid steps) of the path; where the verifier refuses a piece, or it changes a posture that is to be kept,
+/// Quintic pieces through few vias at first; where the verifier refuses a piece, or it changes a posture that is to be kept,
 /// places between its ends become vias too, and where none is left the piece is turned straight, from stop to stop.
 pub(super) fn smooth(
     scene: &Scene,
@@ -61,11 +73,15 @@ pub(super) fn smooth(
     limits: &[SpeedLimits],
     stated: &[SpeedLimits],
     (pace, keep_posture): (Pace, bool),
-    tolerance: f64,
+    style: Style,
     monitor: &dyn Monitor,
 ) -> Result<Smoothed, SmoothError> {
-    let mut chosen = simplify(scene.arm(), places, tolerance * scene.grid().step());
-    let mut stops = vec![false; places.len()];
+    let (mut chosen, mut stops) = match style {
+        Style::Flowing { tolerance } => {
+            (simplify(scene.arm(), places, tolerance * scene.grid().step()), vec![false; places.len()])
+        }
+        Style::StopToStop => ((0..places.len()).collect(), vec![true; places.len()]),
+    };
     for end in [0, places.len() - 1] {
         stops[end] = true;
     }
