@@ -8,6 +8,7 @@ from importlib.metadata import version
 
 from elbowroom._check import JudgedMessage, check, check_file, check_messages
 from elbowroom._core import (
+    Allowed,
     Arm,
     Check,
     Circle,
@@ -27,6 +28,7 @@ from elbowroom._core import (
     Segment,
     Task,
     Units,
+    Unjudged,
     Verdict,
     Violation,
 )
@@ -54,6 +56,7 @@ from elbowroom._world import World
 __version__ = version("elbowroom")
 
 __all__ = [
+    "Allowed",
     "Arm",
     "BadSetting",
     "Check",
@@ -91,6 +94,7 @@ __all__ = [
     "TimedOut",
     "TrajectoryError",
     "Units",
+    "Unjudged",
     "UnknownTask",
     "Update",
     "Verdict",

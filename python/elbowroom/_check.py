@@ -14,6 +14,7 @@ from elbowroom import _core
 from elbowroom._arrays import real_array
 from elbowroom._core import Check
 from elbowroom._errors import BadSetting, TrajectoryError
+from elbowroom._rounding import rounding_of
 from elbowroom._scene import Scene, need_scene
 from elbowroom._trajectory_files import Message, read_messages
 from elbowroom._trajectory_samples import TrajectorySamples
@@ -36,11 +37,13 @@ def check(
     start: ArrayLike | None = None,
     open_end: bool = False,
     margin: float = 0.0,
+    limit_tolerance: float = 0.0,
     timeout: float | None = None,
 ) -> Check:
     """Return the verifier's answer on a trajectory given by samples: safe only if all of it is, from rest to rest.
 
-    ``bool(check)`` is whether it is proved to be safe.
+    ``bool(check)`` is whether it is proved to be safe, in all that was judged: ``check.verdict.unjudged`` has the rates
+    that the rows, by their rounding and spacing, do not tell well enough.
 
     Args:
         scene: Arm and obstacles.
@@ -54,6 +57,8 @@ def check(
         open_end: It is a part of a longer motion, and may begin and end while joints move; what comes before and after
             it is not judged.
         margin: Clearance to keep (m).
+        limit_tolerance: By what share motion limits may be exceeded, besides what the rounding of the rows explains.
+            Contact and joint limits know none.
         timeout: When to give up (s).
 
     Raises:
@@ -82,7 +87,15 @@ def check(
     samples = TrajectorySamples(
         t=since_first, first=first, since_start=True, q=positions, v=velocities, a=accelerations
     )
-    return judged(scene, samples, start=start, open_end=open_end, margin=margin, timeout=timeout)
+    return judged(
+        scene,
+        samples,
+        start=start,
+        open_end=open_end,
+        margin=margin,
+        limit_tolerance=limit_tolerance,
+        timeout=timeout,
+    )
 
 
 def judged(
@@ -92,6 +105,7 @@ def judged(
     start: ArrayLike | None = None,
     open_end: bool = False,
     margin: float = 0.0,
+    limit_tolerance: float = 0.0,
     timeout: float | None = None,
 ) -> Check:
     """Return the verifier's answer on ``samples``; for the rest see ``check``."""
@@ -102,6 +116,7 @@ def judged(
         )
     _check_times(samples)
     lead = max(samples.first, 0.0) if samples.since_start else 0.0
+    rounding = rounding_of(samples)
     if start is not None:
         samples, lead = _from_start(samples, start), 0.0
     t = samples.t
@@ -109,7 +124,11 @@ def judged(
         t = t + samples.first
     motion, curve, ends = _core.interpolated(t, samples.q, samples.v, samples.a, samples.stated)
     at_rest = None if open_end else ends
-    return _core.verify(scene, motion, curve=curve, margin=margin, at_rest=at_rest, lead=lead, timeout=timeout)
+    alike = samples.stated is None or len(set(samples.stated[start is not None :].tolist())) == 1
+    rows = (curve if alike else None, rounding.quanta.tolist(), rounding.time, limit_tolerance)
+    return _core.verify(
+        scene, motion, curve=curve, margin=margin, at_rest=at_rest, lead=lead, rows=rows, timeout=timeout
+    )
 
 
 def _check_times(samples: TrajectorySamples) -> None:
@@ -183,6 +202,7 @@ def check_messages(
     start: ArrayLike | None = None,
     open_end: bool = False,
     margin: float = 0.0,
+    limit_tolerance: float = 0.0,
     timeout: float | None = None,
 ) -> list[JudgedMessage]:
     """Return the verifier's answer on each trajectory in the file at ``path``.
@@ -198,6 +218,8 @@ def check_messages(
         start: Where the arm stands at 0 s, shape ``(joints,)`` (rad), as for ``check``.
         open_end: Parts of longer motions, as for ``check``.
         margin: Clearance to keep (m).
+        limit_tolerance: By what share motion limits may be exceeded, besides what the rounding of the rows explains.
+            Contact and joint limits know none.
         timeout: When to give up on one of them (s).
 
     Raises:
@@ -208,7 +230,18 @@ def check_messages(
     found = _found(scene, path, joints)
     chosen = range(1, len(found) + 1) if message is None else [message]
     return [
-        _answer(scene, path, found, number, joints, start=start, open_end=open_end, margin=margin, timeout=timeout)
+        _answer(
+            scene,
+            path,
+            found,
+            number,
+            joints,
+            start=start,
+            open_end=open_end,
+            margin=margin,
+            limit_tolerance=limit_tolerance,
+            timeout=timeout,
+        )
         for number in chosen
     ]
 
@@ -222,6 +255,7 @@ def check_file(
     start: ArrayLike | None = None,
     open_end: bool = False,
     margin: float = 0.0,
+    limit_tolerance: float = 0.0,
     timeout: float | None = None,
 ) -> Check:
     """Return the verifier's answer on the trajectory in the file at ``path``: our CSV, or a JointTrajectory.
@@ -237,6 +271,8 @@ def check_file(
         start: Where the arm stands at 0 s, shape ``(joints,)`` (rad), for a file whose first row is later than that.
         open_end: It is a part of a longer motion, and may begin and end while joints move.
         margin: Clearance to keep (m).
+        limit_tolerance: By what share motion limits may be exceeded, besides what the rounding of the rows explains.
+            Contact and joint limits know none.
         timeout: When to give up (s).
 
     Raises:
@@ -252,7 +288,16 @@ def check_file(
         )
     number = 1 if message is None else message
     return _answer(
-        scene, path, found, number, joints, start=start, open_end=open_end, margin=margin, timeout=timeout
+        scene,
+        path,
+        found,
+        number,
+        joints,
+        start=start,
+        open_end=open_end,
+        margin=margin,
+        limit_tolerance=limit_tolerance,
+        timeout=timeout,
     ).check
 
 
@@ -283,13 +328,22 @@ def _answer(
     start: ArrayLike | None,
     open_end: bool,
     margin: float,
+    limit_tolerance: float,
     timeout: float | None,
 ) -> JudgedMessage:
     if not (is_whole(number, least=1) and number <= len(found)):
         raise BadSetting(f"message is {number}; {path} holds {len(found)}, counted from 1", setting="message")
     try:
         samples = found[number - 1].read(joints=len(scene.arm.joints), names=joints)
-        answer = judged(scene, samples, start=start, open_end=open_end, margin=margin, timeout=timeout)
+        answer = judged(
+            scene,
+            samples,
+            start=start,
+            open_end=open_end,
+            margin=margin,
+            limit_tolerance=limit_tolerance,
+            timeout=timeout,
+        )
     except TrajectoryError as error:
         which = f" message {number}:" if len(found) > 1 else ""
         raise TrajectoryError(f"{path}:{which} {error}") from None

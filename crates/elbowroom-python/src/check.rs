@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use elbowroom::planning::Monitor;
 use elbowroom::trajectory::{self, Samples, interpolate};
-use elbowroom::verify::{End, Quantity, Verdict as Found, VerifySettings, Violation, verify_until};
+use elbowroom::verify::{
+    End, Quantity, Rows, Verdict as Found, VerifySettings, Violation, verify_rows, verify_until,
+};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -23,7 +25,7 @@ pub(crate) enum Curve {
 }
 
 /// What is asked of a trajectory, besides to keep clear of everything and within all limits.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub(crate) struct Terms {
     /// Between its rows.
     pub(crate) curve: Curve,
@@ -33,14 +35,20 @@ pub(crate) struct Terms {
     pub(crate) at_rest: Option<[Curve; 2]>,
     /// How long before its beginning the arm is on its way there, which nobody has told (s).
     pub(crate) lead: f64,
+    /// How the rows were written that it interpolates; `None` for a motion that is told as it is.
+    pub(crate) rows: Option<Rows>,
 }
 
+/// How rows were written: the curve between all of them, the quanta of each joint, that of times, and the tolerance of limits.
+pub(crate) type ToldRows = (Option<String>, Vec<[f64; 3]>, f64, f64);
+
 /// Terms as pickles keep them.
-pub(crate) type Told = (String, f64, Option<(String, String)>, f64);
+pub(crate) type Told = (String, f64, Option<(String, String)>, f64, Option<ToldRows>);
 
 impl Terms {
     /// Of a planned motion: at rest it is because it does its task.
-    pub(crate) const PLANNED: Self = Self { curve: Curve::Quintic, margin: 0.0, at_rest: None, lead: 0.0 };
+    pub(crate) const PLANNED: Self =
+        Self { curve: Curve::Quintic, margin: 0.0, at_rest: None, lead: 0.0, rows: None };
 
     pub(crate) fn told(&self) -> Told {
         let named = |curve: Curve| curve.name().to_owned();
@@ -49,15 +57,18 @@ impl Terms {
             self.margin,
             self.at_rest.map(|[first, last]| (named(first), named(last))),
             self.lead,
+            self.rows.as_ref().map(told_rows),
         )
     }
 
-    pub(crate) fn read(py: Python<'_>, (curve, margin, at_rest, lead): &Told) -> PyResult<Self> {
+    pub(crate) fn read(py: Python<'_>, (curve, margin, at_rest, lead, rows): &Told) -> PyResult<Self> {
         let named = |(first, last): &(String, String)| -> PyResult<[Curve; 2]> {
             Ok([Curve::named(py, first)?, Curve::named(py, last)?])
         };
         let curve = Curve::named(py, curve)?;
-        Ok(Self { curve, margin: *margin, at_rest: at_rest.as_ref().map(named).transpose()?, lead: *lead })
+        let at_rest = at_rest.as_ref().map(named).transpose()?;
+        let rows = rows.as_ref().map(|rows| read_rows(py, rows)).transpose()?;
+        Ok(Self { curve, margin: *margin, at_rest, lead: *lead, rows })
     }
 
     fn settings(&self) -> VerifySettings {
@@ -72,7 +83,29 @@ impl Terms {
     }
 }
 
+fn told_rows(rows: &Rows) -> ToldRows {
+    let curve = rows.curve.map(|curve| curve.name().to_owned());
+    (curve, rows.quanta.clone(), rows.time_quantum, rows.tolerance)
+}
+
+fn read_rows(py: Python<'_>, (curve, quanta, time_quantum, tolerance): &ToldRows) -> PyResult<Rows> {
+    if !(tolerance.is_finite() && *tolerance >= 0.0) {
+        let message = format!("limit_tolerance is {tolerance}; it must be finite and 0 or more");
+        return Err(errors::setting(py, "limit_tolerance", &message));
+    }
+    let curve = curve.as_ref().map(|name| Curve::named(py, name)).transpose()?.map(Curve::taken);
+    Ok(Rows { curve, quanta: quanta.clone(), time_quantum: *time_quantum, tolerance: *tolerance })
+}
+
 impl Curve {
+    const fn taken(self) -> trajectory::Curve {
+        match self {
+            Self::Linear => trajectory::Curve::Linear,
+            Self::Cubic => trajectory::Curve::Cubic,
+            Self::Quintic => trajectory::Curve::Quintic,
+        }
+    }
+
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Linear => "linear",
@@ -144,7 +177,7 @@ impl Check {
 
     /// What was taken between its rows: ``linear`` for positions alone, ``cubic`` with velocities, ``quintic`` with
     /// accelerations too. What such curves let jump by their nature, the velocity of a linear one, is compared with a
-    /// joint only if the rate above it is limited.
+    /// joint only if a rate above it is limited, and not where the rows are samples.
     #[getter]
     fn curve(&self) -> &'static str {
         self.curve.name()
@@ -235,14 +268,16 @@ pub(crate) fn interpolated(
 /// Return the verifier's answer on ``motion`` in ``scene``.
 ///
 /// ``curve`` says what must not jump between its pieces, ``at_rest`` the first and the last curve of one that is to begin and
-/// end at rest, ``lead`` how long before it the arm is on its way to its beginning (s), which is not judged.
+/// end at rest, ``lead`` how long before it the arm is on its way to its beginning (s), which is not judged. ``rows`` says how the
+/// rows were written that it interpolates: the curve between all of them, or None where that differs; to multiples of what the
+/// positions, velocities and accelerations of each joint are rounded, and times; and by what share motion limits may be exceeded.
 ///
 /// Raises:
 ///     TrajectoryError: It is no motion of this arm.
 ///     TimedOut: The timeout came first.
 ///     BadSetting: A setting makes no sense.
 #[pyfunction]
-#[pyo3(signature = (scene, motion, *, curve, margin, at_rest=None, lead=0.0, timeout=None))]
+#[pyo3(signature = (scene, motion, *, curve, margin, at_rest=None, lead=0.0, rows=None, timeout=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords in Python")]
 pub(crate) fn verify(
     py: Python<'_>,
@@ -252,11 +287,13 @@ pub(crate) fn verify(
     margin: f64,
     at_rest: Option<(String, String)>,
     lead: f64,
+    rows: Option<ToldRows>,
     #[pyo3(from_py_with = argument)] timeout: Option<f64>,
 ) -> PyResult<Check> {
-    let terms = Terms::read(py, &(curve, margin, at_rest, lead))?;
+    let terms = Terms::read(py, &(curve, margin, at_rest, lead, rows))?;
+    let curve = terms.curve;
     let verdict = judged(py, &scene, motion.get(), terms, timeout)?;
-    Ok(Check { motion, curve: terms.curve, verdict: Py::new(py, verdict)? })
+    Ok(Check { motion, curve, verdict: Py::new(py, verdict)? })
 }
 
 /// The verdict on `motion` in `scene`.
@@ -284,7 +321,11 @@ pub(crate) fn judged(
     }
     let settings = terms.settings();
     let (mut found, _) = watch::run(py, timeout, None, |watch| {
-        verify_until(&core.scene, motion, &settings, &|| watch.keep_going())
+        let keep_going = || watch.keep_going();
+        match &terms.rows {
+            Some(rows) => verify_rows(&core.scene, motion, rows, &settings, &keep_going),
+            None => verify_until(&core.scene, motion, &settings, &keep_going),
+        }
     })?;
     if was_stopped(&found) {
         return Err(errors::timed_out(py, timeout));

@@ -18,6 +18,7 @@ mod scene;
 mod threads;
 mod verdict;
 mod verdict_parts;
+mod verdict_rows;
 mod watch;
 
 use pyo3::prelude::*;
@@ -53,6 +54,8 @@ mod _core {
     use super::verdict::{Verdict, verdict_again};
     #[pymodule_export]
     use super::verdict_parts::{Clearance, JointMargin, MotionMargin, MotionMargins, Violation};
+    #[pymodule_export]
+    use super::verdict_rows::{Allowed, Unjudged};
 
     use pyo3::prelude::*;
 

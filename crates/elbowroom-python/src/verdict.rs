@@ -14,6 +14,7 @@ use crate::errors;
 use crate::motion::Motion;
 use crate::scene::Scene;
 use crate::verdict_parts::{Clearance, JointMargin, MotionMargins, Violation};
+use crate::verdict_rows::{Allowed, Unjudged};
 
 /// What the verifier says of a motion. ``safe`` is a proof; ``bool(verdict)`` is the same.
 ///
@@ -32,6 +33,8 @@ struct Found {
     joint_margins: Vec<Option<JointMargin>>,
     motion_margins: Vec<MotionMargins>,
     posture_changes: Vec<f64>,
+    unjudged: Vec<Unjudged>,
+    allowed: Vec<Allowed>,
 }
 
 /// A motion to be judged.
@@ -57,6 +60,8 @@ impl Verdict {
             joint_margins: verdict.joint_margins.iter().map(|m| m.as_ref().map(JointMargin::of)).collect(),
             motion_margins: verdict.motion_margins.iter().map(MotionMargins::of).collect(),
             posture_changes: verdict.posture_changes.clone(),
+            unjudged: verdict.unjudged.iter().map(|one| Unjudged::of(scene, one)).collect(),
+            allowed: verdict.allowed.iter().map(|one| Allowed::of(scene, one)).collect(),
         };
         Self { found, asked }
     }
@@ -67,9 +72,14 @@ impl Verdict {
 
     /// ``safe``, and how near or why not.
     pub(crate) fn in_words(&self) -> String {
+        let but = match self.found.unjudged.len() {
+            0 => String::new(),
+            1 => " in what was judged, a rate was not".to_owned(),
+            more => format!(" in what was judged, {more} rates were not"),
+        };
         match (self.found.violations.as_slice(), &self.found.least_clearance) {
-            ([], Some(least)) => format!("safe, least clearance {} mm", short(least.distance() * 1e3)),
-            ([], None) => "safe".to_owned(),
+            ([], Some(least)) => format!("safe{but}, least clearance {} mm", short(least.distance() * 1e3)),
+            ([], None) => format!("safe{but}"),
             ([first, rest @ ..], _) => {
                 let more = if rest.is_empty() { String::new() } else { format!(", {} more", rest.len()) };
                 format!("not safe: {} at {} s{more}", first.kind(), short(first.time()))
@@ -80,7 +90,7 @@ impl Verdict {
 
 #[pymethods]
 impl Verdict {
-    /// Whether the motion is proved to be safe, down to a clearance of ``floor``.
+    /// Whether the motion is proved to be safe, down to a clearance of ``floor``, in all that was judged: see ``unjudged``.
     #[getter]
     pub(crate) fn safe(&self) -> bool {
         self.found.violations.is_empty()
@@ -122,6 +132,19 @@ impl Verdict {
         PyTuple::new(py, &self.found.posture_changes)
     }
 
+    /// Rates that have a limit and were not judged, as the rows of the trajectory do not tell them well enough; they are no part
+    /// of ``safe``.
+    #[getter]
+    fn unjudged<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.found.unjudged.iter().cloned())
+    }
+
+    /// What is beyond a limit, and passed for the rounding of the rows, their spacing, or the tolerance asked for.
+    #[getter]
+    fn allowed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.found.allowed.iter().cloned())
+    }
+
     /// Return all of it as dictionaries and lists, as ``plan.json`` and ``--json`` have it.
     fn as_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = &self.found;
@@ -138,6 +161,14 @@ impl Verdict {
         let motion: Vec<_> = found.motion_margins.iter().map(|m| m.as_dict(py)).collect::<PyResult<_>>()?;
         fields.set_item("motion_margins", PyList::new(py, motion)?)?;
         fields.set_item("posture_changes", &found.posture_changes)?;
+        // Of rows alone: a plan's own motion is told as it is.
+        if self.asked.as_ref().is_some_and(|asked| asked.terms.rows.is_some()) {
+            let unjudged: Vec<_> =
+                found.unjudged.iter().map(|one| one.as_dict(py)).collect::<PyResult<_>>()?;
+            fields.set_item("unjudged", PyList::new(py, unjudged)?)?;
+            let allowed: Vec<_> = found.allowed.iter().map(|one| one.as_dict(py)).collect::<PyResult<_>>()?;
+            fields.set_item("allowed", PyList::new(py, allowed)?)?;
+        }
         Ok(fields)
     }
 
@@ -170,7 +201,7 @@ impl Verdict {
 }
 
 /// Return the verdict on ``motion`` in ``scene``, verified again on the same ``terms``: curve, margin, the curves at its ends if it
-/// is to be at rest there, and lead; ``safe`` is what an earlier one said.
+/// is to be at rest there, lead, and how its rows were written; ``safe`` is what an earlier one said.
 ///
 /// Raises:
 ///     Refuted: It was said to be safe, and is not.

@@ -39,10 +39,20 @@ def check_command(
         int | None, whole_option(help="Judge this message alone, from 1; default: all of the file.")
     ] = None,
     margin: Annotated[str, typer.Option(help="Clearance to keep, in the unit of the scene or as 5mm.")] = "0",
+    limit_tolerance: Annotated[
+        float,
+        number_option(
+            "--limit-tolerance",
+            help="Share by which motion limits may be exceeded, such as 0.01, besides what rounding explains.",
+        ),
+    ] = 0.0,
     timeout: Annotated[float | None, number_option(help="Give up after so many seconds.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")] = False,
 ) -> None:
-    """Verify a trajectory, from rest to rest: exit code 0 only if all of it is proved to be safe, otherwise 4."""
+    """Verify a trajectory, from rest to rest: exit code 0 only if it is proved to be safe, otherwise 4.
+
+    Rates that the rows do not tell, for their rounding or spacing, are named as not judged, as those without limits.
+    """
     with reported():
         import json
 
@@ -62,6 +72,7 @@ def check_command(
             start=None if start is None else start_of(start, loaded),
             open_end=open_end,
             margin=metres(margin, loaded.units, setting="margin"),
+            limit_tolerance=limit_tolerance,
             timeout=timeout,
         )
         safe = all(answer.safe for answer in answers)

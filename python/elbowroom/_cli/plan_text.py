@@ -73,9 +73,10 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
     elif not verdict.safe:
         lines = ["NOT SAFE"]
     elif open_end:
-        lines = ["SAFE: proved from the first row to the last; what comes before and after was not judged"]
+        but = ", in all that was judged" * bool(verdict.unjudged)
+        lines = [f"SAFE: proved from the first row to the last{but}; what comes before and after was not judged"]
     else:
-        lines = ["SAFE: proved for the whole motion" + ", in all that was judged" * bool(left_out)]
+        lines = ["SAFE: proved for the whole motion" + ", in all that was judged" * bool(left_out or verdict.unjudged)]
     lines += [f"  {violation.message}" for violation in violations]
     nearest = verdict.least_clearance
     if nearest is not None and nearest.distance > 0.0:
@@ -94,17 +95,21 @@ def verdict_lines(verdict: Verdict, scene: Scene, *, open_end: bool = False) -> 
     changes = verdict.posture_changes
     if changes:
         lines.append("  posture changes at " + ", ".join(f"{time:.3f} s" for time in changes))
-    return [*lines, f"  judged: {', '.join(judged)}", *(f"  NOT judged, {what}" for what in left_out)]
+    lines += [f"  {allowed.message}" for allowed in verdict.allowed]
+    lines.append(f"  judged: {', '.join(judged)}")
+    lines += [f"  NOT judged, {what}" for what in left_out]
+    return lines + [f"  NOT judged: {unjudged.message}" for unjudged in verdict.unjudged]
 
 
 def _nearest_to_limits(verdict: Verdict, scene: Scene) -> str:
     """Of each rate that has limits, the joint that comes nearest to its own, where none is beyond."""
     told = []
+    unknown = {(unjudged.rate, unjudged.joint) for unjudged in verdict.unjudged}
     for rate, order in ORDERS.items():
         shares = [
             (margin.largest / margin.limit, joint, margin)
             for joint, margin in enumerate((getattr(of_joint, rate) for of_joint in verdict.motion_margins), 1)
-            if margin.limit is not None
+            if margin.limit is not None and (rate, joint) not in unknown
         ]
         if shares and max(share for share, *_ in shares) <= 1.0:
             _, joint, margin = max(shares, key=lambda share: share[0])
@@ -124,8 +129,10 @@ def _judged(verdict: Verdict, scene: Scene) -> tuple[list[str], list[str]]:
     for rate, order in ORDERS.items():
         margins = [getattr(of_joint, rate) for of_joint in verdict.motion_margins]
         without = [joint for joint, margin in enumerate(margins, 1) if margin.limit is None]
-        if len(without) < len(margins):
-            judged.append(rate + _of(without, len(margins), of_those=False))
+        unknown = {unjudged.joint for unjudged in verdict.unjudged if unjudged.rate == rate}
+        not_judged = sorted({*without, *unknown})
+        if len(not_judged) < len(margins):
+            judged.append(rate + _of(not_judged, len(margins), of_those=False))
         if without:
             greatest = max(margins[joint - 1].largest for joint in without)
             reached = f" (up to {scene.units.measured_angle(greatest, order=order)})" if greatest > 0.0 else ""

@@ -1,7 +1,9 @@
 use super::continuity;
 use super::ends;
+use super::foreign::{self, Leniency};
 use super::limits;
 use super::posture_changes::posture_changes;
+use super::rows::Rows;
 use super::sweep::Passage;
 use super::{Verdict, VerifySettings, Violation};
 use crate::scene::Scene;
@@ -33,6 +35,36 @@ pub fn verify_until(
     settings: &VerifySettings,
     keep_going: &dyn Fn() -> bool,
 ) -> Verdict {
+    judge(scene, motion, None, settings, keep_going)
+}
+
+/// [`verify_until`] for a motion that interpolates [`Rows`]: motion limits are judged with what their digits and their spacing
+/// tell of the motion they are from, and all else as ever.
+///
+/// A limit is broken where every motion through the rows, as far as they are rounded, exceeds it; or where the curve between
+/// them does by more than rounding, unless the rows are samples ([`SAMPLED`](super::SAMPLED)) and the curve is a guess. What a curve
+/// of samples does beyond a limit, and what is less certain than a share of [`SMALL`](super::SMALL) of its limit, is
+/// [`Verdict::unjudged`]; what passed for rounding or tolerance is [`Verdict::allowed`].
+///
+/// # Reference
+/// De Boor, *A practical guide to splines*, for the mean value theorem of divided differences.
+pub fn verify_rows(
+    scene: &Scene,
+    motion: &Motion,
+    rows: &Rows,
+    settings: &VerifySettings,
+    keep_going: &dyn Fn() -> bool,
+) -> Verdict {
+    judge(scene, motion, Some(rows), settings, keep_going)
+}
+
+fn judge(
+    scene: &Scene,
+    motion: &Motion,
+    rows: Option<&Rows>,
+    settings: &VerifySettings,
+    keep_going: &dyn Fn() -> bool,
+) -> Verdict {
     let mut violations = Vec::new();
     let joints = scene.arm().joints();
     if motion.joints() != joints.len() {
@@ -44,6 +76,8 @@ pub fn verify_until(
             joint_margins: Vec::new(),
             motion_margins: Vec::new(),
             posture_changes: Vec::new(),
+            unjudged: Vec::new(),
+            allowed: Vec::new(),
         };
     }
     let pieces = limits::workable_pieces(motion, &mut violations);
@@ -51,6 +85,11 @@ pub fn verify_until(
     ends::check(motion, joints, settings.ends, &mut violations);
     let report = |(j, joint)| limits::check(joint, j, pieces.iter().copied(), &mut violations);
     let reports: Vec<limits::JointReport> = joints.iter().enumerate().map(report).collect();
+    // Pieces that arithmetic cannot work with are left out, and what is left makes no rows.
+    let whole = pieces.len() == motion.pieces().len();
+    let leniency = rows
+        .filter(|_| whole)
+        .map_or_else(Leniency::default, |rows| foreign::judge(rows, joints, &pieces, &mut violations));
     let passage = Passage { scene, pieces: &pieces, passed_jumps: &passed_jumps };
     let least_clearance = passage.check(settings, keep_going, &mut violations);
     violations.sort_by(|a, b| a.time().total_cmp(&b.time()));
@@ -60,6 +99,8 @@ pub fn verify_until(
         joint_margins: reports.iter().map(|report| report.stops).collect(),
         motion_margins: reports.iter().map(|report| report.motion).collect(),
         posture_changes: posture_changes(&pieces),
+        unjudged: leniency.unjudged,
+        allowed: leniency.allowed,
     }
 }
 

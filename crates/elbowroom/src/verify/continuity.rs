@@ -1,6 +1,7 @@
 //! Whether pieces join.
 
-use super::verdict::{Quantity, Violation};
+use super::rate::Quantity;
+use super::verdict::Violation;
 use crate::arm::Joint;
 use crate::trajectory::Piece;
 
@@ -13,8 +14,8 @@ const KINDS: [Quantity; 3] = [Quantity::Position, Quantity::Velocity, Quantity::
 /// Reports the greatest jump of each kind per joint, and gives the greatest jump of position that passed as
 /// rounding, per joint (rad).
 ///
-/// Up to `continuous` nothing may jump. Beyond it a jump is compared with a joint whose next rate is limited: to jump
-/// in velocity takes more acceleration than any limit allows.
+/// Up to `continuous` nothing may jump. Beyond it a jump is compared with a joint that has a limit on a higher rate: to
+/// jump in velocity takes more acceleration, and more jerk, than any limit allows.
 pub(super) fn check(
     pieces: &[Piece],
     joints: &[Joint],
@@ -51,7 +52,7 @@ pub(super) fn check(
             let motion = joints[joint].motion;
             let limited = match what {
                 Quantity::Position => true,
-                Quantity::Velocity => motion.acceleration.is_some(),
+                Quantity::Velocity => motion.acceleration.is_some() || motion.jerk.is_some(),
                 Quantity::Acceleration => motion.jerk.is_some(),
             };
             if let Some((jump, time)) = *worst

@@ -1,7 +1,8 @@
 //! Whether the arm is at rest where the motion begins and ends.
 
 use super::End;
-use super::verdict::{Quantity, Violation};
+use super::rate::Quantity;
+use super::verdict::Violation;
 use crate::arm::Joint;
 use crate::trajectory::Motion;
 

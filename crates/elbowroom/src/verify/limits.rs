@@ -2,7 +2,8 @@
 
 use super::bernstein::Bernstein;
 use super::peak::Peak;
-use super::verdict::{JointMargin, MotionMargin, MotionMargins, Rate, Violation};
+use super::rate::Rate;
+use super::verdict::{JointMargin, MotionMargin, MotionMargins, Violation};
 use crate::arm::{Joint, JointLimits};
 use crate::trajectory::{Motion, Piece};
 

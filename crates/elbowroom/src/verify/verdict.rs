@@ -1,5 +1,7 @@
 use thiserror::Error;
 
+use super::doubt::{Allowed, Unjudged};
+use super::rate::{Quantity, Rate};
 use crate::scene::{Scene, obstacle_in_words};
 use crate::units::{Units, apart, seconds};
 
@@ -22,10 +24,14 @@ pub struct Verdict {
     /// When the elbow of an arm of two links changes sides (s), ascending; the first
     /// [`super::MOST_POSTURE_CHANGES`] of them. In a continuous motion this happens at full stretch or fold only.
     pub posture_changes: Vec<f64>,
+    /// Rates that have a limit and were not judged, as the rows of the motion do not tell them well enough.
+    pub unjudged: Vec<Unjudged>,
+    /// What is beyond a limit, and passed for the rounding of the rows, their spacing, or the tolerance asked for.
+    pub allowed: Vec<Allowed>,
 }
 
 impl Verdict {
-    /// Whether the motion is proved to be safe.
+    /// Whether the motion is proved to be safe, in all that was judged: see [`Verdict::unjudged`].
     pub fn is_safe(&self) -> bool {
         self.violations.is_empty()
     }
@@ -110,68 +116,6 @@ pub struct MotionMargin {
     pub time: f64,
     /// What is allowed; `None` where the user stated no limit.
     pub limit: Option<f64>,
-}
-
-/// A rate of change of a joint's position.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Rate {
-    /// In rad/s.
-    Velocity,
-    /// In rad/s².
-    Acceleration,
-    /// In rad/s³.
-    Jerk,
-}
-
-/// What must not jump where two pieces meet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Quantity {
-    /// In rad.
-    Position,
-    /// In rad/s.
-    Velocity,
-    /// In rad/s².
-    Acceleration,
-}
-
-impl Rate {
-    /// The word for it, in lower case.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Velocity => "velocity",
-            Self::Acceleration => "acceleration",
-            Self::Jerk => "jerk",
-        }
-    }
-
-    /// Which derivative of the position it is.
-    pub const fn order(self) -> usize {
-        match self {
-            Self::Velocity => 1,
-            Self::Acceleration => 2,
-            Self::Jerk => 3,
-        }
-    }
-}
-
-impl Quantity {
-    /// The word for it, in lower case.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Position => "position",
-            Self::Velocity => "velocity",
-            Self::Acceleration => "acceleration",
-        }
-    }
-
-    /// Which derivative of the position it is.
-    pub const fn order(self) -> usize {
-        match self {
-            Self::Position => 0,
-            Self::Velocity => 1,
-            Self::Acceleration => 2,
-        }
-    }
 }
 
 /// A reason why a motion is not safe. Joints and links count from 1 at the base, obstacles from 0 (in texts
