@@ -173,6 +173,8 @@ def test_verdicts_answer_and_turn_into_data(standin: er.Scene, plan: er.Plan) ->
         "joint_margins",
         "motion_margins",
         "posture_changes",
+        "unjudged",
+        "allowed",
     ]
     first = touching.verdict.violations[0]
     assert told["violations"][0] == {

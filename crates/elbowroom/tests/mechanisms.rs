@@ -36,7 +36,7 @@ fn a_tip_stands_for_sixteen_different_configurations_of_many_links() {
 #[test]
 fn the_time_bound_counts_speeding_up_and_slowing_down() {
     // One joint turns by 2 rad at up to 0.8 rad/s with 0.4 rad/s²: 2 / 0.8 + 0.8 / 0.4 s, and less way never gets to 0.8.
-    let limits = MotionLimits { velocity: Some(0.8), acceleration: Some(0.4), jerk: None };
+    let limits = MotionLimits { velocity: Some(0.8), acceleration: Some(0.4), jerk: Some(1e9) };
     let joint = Joint { motion: limits, ..Joint::CONTINUOUS };
     let scene = build::scene(build::arm_of(&[0.5, 0.4], 0.0, &[joint; 2]), vec![]);
     for (turn, least) in [(2.0, 2.0 / 0.8 + 0.8 / 0.4), (0.9, 2.0 * f64::sqrt(0.9 / 0.4))] {
