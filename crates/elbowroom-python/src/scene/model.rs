@@ -281,8 +281,7 @@ impl Scene {
         self.sha256.made(py, || self.hashed(py))
     }
 
-    /// Return the scene in which the arm touches something where in this one it comes as near to it as ``clearance`` (m): links and
-    /// obstacles are thicker by half of it each.
+    /// Return the scene whose links and obstacles are thicker by half of ``clearance`` (m) each: contact there is coming as near here.
     ///
     /// Raises:
     ///     BadSetting: The clearance is less than 0, or more than arm or obstacles can be thickened by.
@@ -291,10 +290,9 @@ impl Scene {
         py: Python<'py>,
         #[pyo3(from_py_with = argument)] clearance: f64,
     ) -> PyResult<Bound<'py, Self>> {
-        let thicker = self.scene.with_clearance(clearance).ok_or_else(|| {
-            let error = PlanError::Clearance { clearance };
-            errors::setting(py, "clearance", &error.told(self.units()))
-        })?;
+        let refused =
+            || errors::setting(py, "clearance", &PlanError::Clearance { clearance }.told(self.units()));
+        let thicker = self.scene.with_clearance(clearance).ok_or_else(refused)?;
         Bound::new(py, Self::of(thicker, self.grid, self.units, None))
     }
 
@@ -382,8 +380,6 @@ impl Scene {
         (again, (keywords, self.file(), self.locations(py)?)).into_pyobject(py)
     }
 }
-
-impl Scene {}
 
 /// Return the scene of these ``keywords`` that was read from ``file``, or made in code if that is ``None``.
 ///
