@@ -152,7 +152,7 @@ pub(super) fn paths_over_grid(
         let joined = paths.into_iter().map(|(cost, nodes)| Some((cost, graph.joint_path(&nodes)?)));
         joined.collect::<Option<Vec<(f64, JointPath)>>>().ok_or_else(not_found)
     };
-    // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is never worse.
+    // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is hardly ever worse.
     let mut chosen = joined(own)?;
     chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SETTINGS.shortlist));
     let candidate = |(tip_travel, path)| {
