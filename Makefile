@@ -23,7 +23,7 @@ test: setup extras
 	$(BIN)/ruff check python tests bench fuzz
 	$(BIN)/mypy
 	MYPYPATH=python $(BIN)/python -m mypy.stubtest elbowroom._core
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto
 
 # The tables of docs/ that our own planners make.
 tables: setup

@@ -39,8 +39,8 @@ def cases() -> list[Case]:
 def gains(seeds: int, cases: Sequence[Case]) -> list[str]:
     """Return the table of what the swarm gains: the median over the seeds, and the worst of them."""
     rows = [
-        "| scene | joint 1 | task | objective | dstar | dstar-pso, median | worst | gain | optimal |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| scene | joint 1 | task | objective | dstar | dstar-pso, one path drawn | median | worst | gain | optimal |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for case in cases:
         for task in case.scene.tasks:
@@ -49,10 +49,14 @@ def gains(seeds: int, cases: Sequence[Case]) -> list[str]:
                 plans = [er.plan(case.scene, task=task, objective=objective, seed=seed) for seed in range(seeds)]
                 drawn = [plan.cost * scale for plan in plans]
                 median = statistics.median(drawn)
+                few = er.plan(
+                    case.scene, task=task, planner="dstar-pso", options={"candidates": 1}, objective=objective
+                )
                 best = er.plan(case.scene, task=task, planner="optimal", objective=objective).cost * scale
                 rows.append(
-                    f"| {case.name} | {case.kind} | {task} | {objective} ({unit}) | {alone:.4f} | {median:.4f} | "
-                    f"{max(drawn):.4f} | {(1 - median / alone) * 100:+.1f} % | {best:.4f} |"
+                    f"| {case.name} | {case.kind} | {task} | {objective} ({unit}) | {alone:.4f} | "
+                    f"{few.cost * scale:.4f} | {median:.4f} | {max(drawn):.4f} | "
+                    f"{(1 - median / alone) * 100:+.1f} % | {best:.4f} |"
                 )
     return rows
 
@@ -66,14 +70,18 @@ def main() -> None:
     text = [
         "# What the swarm gains",
         "",
-        "D* gives one shortest grid path. The swarm samples many as short, or nearly (within 1 %), and the planner",
-        "makes verified motions of the eight most promising, and of D*'s own, and makes the three best of them as",
-        "short or as fast as it can, shape and timing together ([motions.md](motions.md)). Neighbouring paths end as",
-        "nearly the same motion, so that on these tasks the swarm gains nothing over D* any more: what counts is on",
-        "which side the obstacles are passed, and the swarm, which samples near D*'s shortest path, brings no other",
-        "side. `optimal`, which searches over the joints, brings another one on paper-standin, second; on narrow with",
-        "joint 1 from 0 to 360 degrees D*'s is the better one. Costs are those of the verified motion, for tip and",
-        "joint travel with the default slack of 0.5 % in favour of time. Made by `make tables`:",
+        "D* gives one shortest path over the grid, by what is asked for: tip travel, joint travel, or time at the",
+        "joints' greatest speeds. `dstar-pso` has more to choose from: paths by way of plateaus of D*'s cost-to-",
+        "go, which pass obstacles on other sides or end in another configuration, and paths that the swarm draws.",
+        "Of those that cannot be pulled over to each other without contact, three become motions that are as",
+        "short or as fast as they can be, shape and timing together ([motions.md](motions.md)). Two that can be",
+        "pulled over to each other end as nearly the same motion: so what is gained over D* alone is gained by",
+        "the plateaus. Without a swarm, with one path drawn (`--planner dstar-pso:candidates=1`), it is gained",
+        "all the same; what the swarm draws changes no row. On 1,033 random worlds (those of the tests) 85",
+        "motions of `dstar-pso` are faster than `dstar`'s by more than 1 %, to 0.43 of the duration at best, and",
+        "none is slower by that much. Costs are those of the verified motion, for tip and joint travel with the",
+        "default slack of 0.5 % in favour of time.",
+        "Made by `make tables`:",
         f"{options.seeds} seeds, default settings; limits a scene does not state are assumed.",
         "",
         *gains(options.seeds, cases()),

@@ -61,20 +61,26 @@ fn stops_are_the_via_points_at_which_the_arm_rests() {
 }
 
 #[test]
-fn a_little_more_tip_travel_is_traded_for_what_the_arm_pays() {
-    // With joint travel or time as the objective paths within 1 % of the shortest are candidates too.
-    let of = |scene: &str, task: &str, objective: Objective| {
-        asked(&example(scene), task, &DstarPsoPlanner::default(), objective, 0)
-    };
-    for (scene, task) in [("narrow", "second"), ("paper-standin", "first"), ("paper-standin", "second")] {
-        let [tip, joint, time] = Objective::ALL.map(|objective| of(scene, task, objective));
-        for other in [&joint, &time] {
-            assert!(other.record().paths_to_choose_from > tip.record().paths_to_choose_from, "{scene}");
-        }
+fn dstar_counts_what_is_asked_for() {
+    for (scene, task) in [("narrow", "second"), ("paper-standin", "second"), ("abb-irb-910sc-065", "place")] {
+        let scene = example(scene);
+        let [tip, joint] = [Objective::Tip, Objective::Joint]
+            .map(|objective| asked(&scene, task, &DstarPlanner, objective, 0).record().joint_path.clone());
+        assert!(joint.length() < tip.length() && tip.tip_travel(scene.arm()) < joint.tip_travel(scene.arm()));
     }
-    let [tip, joint, _] = Objective::ALL.map(|objective| of("abb-irb-910sc-065", "place", objective));
-    let more = joint.record().path_cost / tip.record().path_cost;
-    assert!(more > 1.0 && more <= 1.01 + 1e-9, "{more}");
+}
+
+#[test]
+fn plateaus_bring_ways_that_dstar_alone_does_not_take() {
+    // From the other posture, to the other posture: D*'s own path is shorter by a little, its motion takes longer.
+    for (scene, task, objective) in
+        [("abb-irb-910sc-065", "pick", Objective::Time), ("narrow", "first", Objective::Tip)]
+    {
+        let scene = example(scene);
+        let [own, drawn] = [&DstarPlanner as &dyn Planner, &DstarPsoPlanner::default()]
+            .map(|planner| asked(&scene, task, planner, objective, 0).cost());
+        assert!(drawn < 0.997 * own, "{own}, {drawn}");
+    }
 }
 
 #[test]

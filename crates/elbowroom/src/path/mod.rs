@@ -4,6 +4,7 @@ mod asked;
 mod chain_move;
 mod clearance;
 mod follow;
+mod homotopy;
 mod joint_path;
 mod pairs;
 mod penetration;
@@ -14,6 +15,7 @@ mod two_link_move;
 
 pub use clearance::{CERTIFIED_CLEARANCE, link_clearances, motion_bounds, self_clearance};
 pub use follow::{FollowError, Followed, Jump, JumpKind, follow};
+pub(crate) use homotopy::can_be_deformed;
 pub use joint_path::JointPath;
 pub(crate) use pairs::{joint_path, pairs};
 pub(crate) use penetration::Penetration;

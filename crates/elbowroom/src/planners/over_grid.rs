@@ -1,4 +1,5 @@
-//! Certified paths over the grid that are worth being made into motions: D*'s, and those that a swarm draws over its cost-to-go.
+//! Certified paths over the grid that are worth being made into motions: D*'s, those by way of plateaus of its cost-to-go, which pass
+//! obstacles on other sides or end otherwise, and those that a swarm draws over it.
 
 use super::off_grid::{Search, over_joints};
 use super::shortlist::shortlist;
@@ -7,16 +8,24 @@ use crate::geometry::Point;
 use crate::grid::Grid;
 use crate::path::JointPath;
 use crate::planning::{
-    Candidate, Effort, Found, Objective, PathToFollow, Pick, PlanError, Problem, Stage, least_cost,
+    Candidate, Effort, Found, Monitor, Objective, PathToFollow, Pick, PlanError, Problem, Stage, least_cost,
 };
 use crate::roadmap::PostureGraph;
-use crate::search::{Dstar, Graph, Until};
+use crate::search::{Dstar, Graph, PlateauSettings, Until, plateaus};
 use crate::swarm::{GuidedSwarmSettings, Terrain, draw_paths};
 
 /// How many paths are followed and how closely; where a proof that there is none is tried.
 pub(super) struct Settings {
-    /// How many of the drawn paths are made into motions: what a path promises and what its motion costs differ.
+    /// How many paths, no two of which can be pulled over to each other, are made into motions: what a path promises and what its motion
+    /// costs differ.
     shortlist: usize,
+    /// Paths lead by way of so many pieces of plateaus, and what is one.
+    pieces: usize,
+    /// By way of how many places of each.
+    vias: usize,
+    /// By how much paths that the swarm draws may cost more than the least, as a share.
+    keep_within: f64,
+    plateaus: PlateauSettings,
     /// How far a motion may stray from a path over the grid before the verifier is asked, in grid steps: about its zigzag.
     pub(super) tolerance: f64,
     /// How far inside the obstacles walls stand (rad), one after the other, where the grid connects nothing: until there is a path off
@@ -24,18 +33,22 @@ pub(super) struct Settings {
     distances: [f64; 5],
 }
 
-pub(super) const SETTINGS: Settings =
-    Settings { shortlist: 8, tolerance: 1.0, distances: [3e-3, 1e-3, 1e-4, 1e-5, 1e-6] };
-
-/// Costs that differ by less than this share are the same: sums of the same steps in another order.
-const SAME_COST: f64 = 1e-9;
+pub(super) const SETTINGS: Settings = Settings {
+    shortlist: 6,
+    pieces: 8,
+    vias: 6,
+    keep_within: 0.01,
+    plateaus: PlateauSettings { within: 1.0, stretch: 0.05, drop: 0.05 },
+    tolerance: 1.0,
+    distances: [3e-3, 1e-3, 1e-4, 1e-5, 1e-6],
+};
 
 /// Which paths over the grid are candidates.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Choice<'a> {
     /// D*'s own.
     OwnOnly,
-    /// Those, and the best that a swarm draws.
+    /// That, those by way of plateaus, and the best that a swarm draws.
     Drawn(&'a GuidedSwarmSettings),
 }
 
@@ -82,7 +95,8 @@ fn outside_grid(problem: &Problem<'_>, grid: &Grid) -> Option<PlanError> {
     })
 }
 
-/// D*'s own paths over places and postures, and of those that a swarm draws, if one shall, the ones that promise most.
+/// D*'s own path over places and postures, with steps that cost what is asked for. If a swarm shall draw, also paths that cannot be pulled
+/// over to it or each other, by way of plateaus; and where there are few, paths that the swarm draws over the cost-to-go.
 ///
 /// # Errors
 /// [`PlanError::NotFound`], [`PlanError::Stopped`]
@@ -98,67 +112,90 @@ pub(super) fn paths_over_grid(
     let space = FreeSpace::of_until(scene, &|| monitor.keep_going()).ok_or(PlanError::Stopped)?;
 
     monitor.stage(Stage::CostToGo);
-    let mut graph = PostureGraph::new(scene, &space, !ends.keep_posture);
+    let step_cost = settings.objective.step_cost(limits);
+    let mut graph = PostureGraph::new(scene, &space, !ends.keep_posture, step_cost);
     let [starts, goals] = ends.pairs();
     let goals: Vec<usize> = goals.into_iter().map(|q| graph.insert(q)).collect();
     let starts: Vec<usize> = starts.into_iter().map(|q| graph.insert(q)).collect();
+    let to_goal = field(&graph, &goals, &starts, *monitor)?;
+    let cheapest =
+        starts.iter().copied().min_by(|&a, &b| to_goal.cost_to_go(a).total_cmp(&to_goal.cost_to_go(b)));
+    let start = cheapest.filter(|&start| to_goal.cost_to_go(start).is_finite()).ok_or_else(not_found)?;
+    let joined = |nodes: &[usize]| graph.joint_path(nodes).ok_or_else(not_found);
+    let own = joined(&to_goal.path(start).ok_or_else(not_found)?)?;
+    let Choice::Drawn(swarm) = choice else { return Ok(Found::new(vec![followed(own)], Pick::Best)) };
+
+    monitor.stage(Stage::TipPath);
+    let from_start = field(&graph, &starts, &goals, *monitor)?;
+    let mut others = alternatives(&graph, &from_start, &to_goal, to_goal.cost_to_go(start));
+    let terrain = Terrain {
+        graph: &graph,
+        cost_to_go: &|node| to_goal.cost_to_go(node),
+        distance: &|node| {
+            let straight = goals.iter().filter_map(|&goal| graph.cost_at_least(node, goal));
+            straight.fold(f64::INFINITY, f64::min)
+        },
+        is_goal: &|node| goals.contains(&node),
+    };
+    let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(SETTINGS.keep_within), ..*swarm };
+    let drawn = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
+    let drawn = drawn.ok_or(PlanError::Stopped)?;
+    others.extend(drawn.costs.into_iter().zip(drawn.paths));
+
+    monitor.stage(Stage::JointPath);
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let others = others.iter().map(|(_, nodes)| joined(nodes)).collect::<Result<Vec<_>, _>>()?;
+    let paths = 1 + others.len();
+    // D*'s own path stays in the running whatever it promises, so that the choice is hardly ever worse.
+    let chosen = shortlist(scene.scene(), own, others, SETTINGS.shortlist);
+    let candidates = chosen.into_iter().map(followed).collect();
+    let effort = Some(Effort { evaluations: drawn.candidates, ..Effort::default() });
+    Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })
+}
+
+/// Paths from a start to a goal by way of plateaus of the cost-to-go, with what they cost.
+fn alternatives(
+    graph: &PostureGraph<'_>,
+    from_start: &Dstar,
+    to_goal: &Dstar,
+    least: f64,
+) -> Vec<(f64, Vec<usize>)> {
+    let pieces = plateaus(graph, from_start, to_goal, least, &SETTINGS.plateaus);
+    let vias = pieces.iter().take(SETTINGS.pieces).flat_map(|piece| {
+        let vias = SETTINGS.vias.min(piece.len());
+        (0..vias).map(move |i| piece[i * piece.len() / vias])
+    });
+    let by = |via: usize| {
+        let mut nodes = from_start.path(via)?;
+        nodes.reverse();
+        nodes.extend(to_goal.path(via)?.into_iter().skip(1));
+        Some((from_start.cost_to_go(via) + to_goal.cost_to_go(via), nodes))
+    };
+    vias.filter_map(by).collect()
+}
+
+/// The cost-to-go to the nearest of `goals`, as far as from the nearest of `starts`.
+///
+/// # Errors
+/// [`PlanError::Stopped`]
+fn field(
+    graph: &PostureGraph<'_>,
+    goals: &[usize],
+    starts: &[usize],
+    monitor: &dyn Monitor,
+) -> Result<Dstar, PlanError> {
     let mut field = Dstar::new(graph.len());
-    for &goal in &goals {
+    for &goal in goals {
         field.insert_goal(goal, 0.0)?;
     }
-    for &start in &starts {
-        if !field.settle(&graph, Until::Settled(start), &|| monitor.keep_going()) {
+    for &start in starts {
+        if !field.settle(graph, Until::Settled(start), &|| monitor.keep_going()) {
             return Err(PlanError::Stopped);
         }
     }
-    let least = starts.iter().map(|&start| field.cost_to_go(start)).fold(f64::INFINITY, f64::min);
-    if least.is_infinite() {
-        return Err(not_found());
-    }
+    Ok(field)
+}
 
-    monitor.stage(Stage::TipPath);
-    let slack = settings.objective.slack();
-    let worth_it = starts.iter().filter(|&&start| field.cost_to_go(start) <= least * (1.0 + slack));
-    let mut own: Vec<(f64, Vec<usize>)> = Vec::new();
-    let mut drawn: Vec<(f64, Vec<usize>)> = Vec::new();
-    let mut effort = None;
-    for &start in worth_it {
-        own.push((field.cost_to_go(start), field.path(start).ok_or_else(not_found)?));
-        if let Choice::Drawn(swarm) = choice {
-            let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(slack), ..*swarm };
-            let goal_tips: Vec<Point> = goals.iter().map(|&goal| graph.tip(goal)).collect();
-            let terrain = Terrain {
-                graph: &graph,
-                cost_to_go: &|node| field.cost_to_go(node),
-                distance: &|node| {
-                    let tip = graph.tip(node);
-                    goal_tips.iter().map(|goal| goal.distance(tip)).fold(f64::INFINITY, f64::min)
-                },
-                is_goal: &|node| goals.contains(&node),
-            };
-            let paths = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
-            let paths = paths.ok_or(PlanError::Stopped)?;
-            effort.get_or_insert_with(Effort::default).evaluations += swarm.candidates;
-            drawn.extend(paths.costs.into_iter().zip(paths.paths));
-        }
-    }
-
-    monitor.stage(Stage::JointPath);
-    drawn.retain(|(cost, nodes)| {
-        *cost <= least * (1.0 + slack.max(SAME_COST)) && own.iter().all(|(_, known)| known != nodes)
-    });
-    let paths = own.len() + drawn.len();
-    let joined = |paths: Vec<(f64, Vec<usize>)>| {
-        let joined = paths.into_iter().map(|(cost, nodes)| Some((cost, graph.joint_path(&nodes)?)));
-        joined.collect::<Option<Vec<(f64, JointPath)>>>().ok_or_else(not_found)
-    };
-    // D*'s own paths stay in the running whatever they promise, so that the swarm's choice is hardly ever worse.
-    let mut chosen = joined(own)?;
-    chosen.extend(shortlist(scene.scene(), limits, settings.objective, joined(drawn)?, SETTINGS.shortlist));
-    let candidate = |(tip_travel, path)| {
-        let tip_travel = Some(tip_travel);
-        Candidate::certified(PathToFollow { path, tip_travel, tolerance: SETTINGS.tolerance })
-    };
-    let candidates = chosen.into_iter().map(candidate).collect();
-    Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })
+fn followed(path: JointPath) -> Candidate {
+    Candidate::certified(PathToFollow { path, tolerance: SETTINGS.tolerance })
 }

@@ -15,9 +15,6 @@ use crate::verify::{Trajectory, VerifySettings};
 /// Costs that differ by less than this share are the same: sums of the same steps in another order.
 const SAME_COST: f64 = 1e-9;
 
-/// Motions that are kept, the best of them: to be made better.
-const SHAPED: usize = 3;
-
 /// The plan of `planner` that the best, or the first, of the candidates makes.
 ///
 /// # Errors
@@ -33,6 +30,8 @@ pub(super) fn accepted(
     let evaluations = found.effort.as_ref().map_or(0, |effort| effort.evaluations);
     let mut refused = PlanError::NotFoundInBudget { evaluations };
     let mut ranked: Vec<(f64, Made)> = Vec::new();
+    // Where among them the first is that was proposed.
+    let mut first = 0;
     for candidate in found.candidates {
         let made = match candidate.0 {
             Proposed::Path { path, is_certified } => along(problem, planner, path, is_certified, lower_bound),
@@ -60,13 +59,16 @@ pub(super) fn accepted(
         }
         let cost = objective.of_motion(scene.arm(), trajectory.motion());
         let rank = ranked.iter().position(|(known, of)| is_better((cost, &made), (*known, of)));
-        ranked.insert(rank.unwrap_or(ranked.len()), (cost, made));
-        ranked.truncate(SHAPED);
+        let rank = rank.unwrap_or(ranked.len());
+        if !ranked.is_empty() && rank <= first {
+            first += 1;
+        }
+        ranked.insert(rank, (cost, made));
         if found.pick == Pick::First {
             break;
         }
     }
-    let (cost, made) = best_of(problem, ranked, lower_bound)?.ok_or(refused)?;
+    let (cost, made) = best_of(problem, ranked, first, lower_bound)?.ok_or(refused)?;
     if let Some(mismatch) = mismatched(problem, &made.trajectory) {
         return Err(PlanError::Mismatch { planner: planner.to_owned(), mismatch });
     }
@@ -124,7 +126,7 @@ fn along(
         return Err(PlanError::Uncertified { planner: planner.to_owned(), from });
     }
     let smoothed = smoothed(problem, planner, &follow, lower_bound)?;
-    let path_cost = follow.tip_travel(problem.scene.arm());
+    let path_cost = follow.path.tip_travel(problem.scene.arm());
     Ok(Made {
         trajectory: smoothed.trajectory,
         joint_path: follow.path,

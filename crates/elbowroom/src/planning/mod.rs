@@ -42,7 +42,7 @@ pub use limits::{ASSUMED_LIMITS, AssumedLimit};
 pub use mismatch::{END_ROUNDING, Mismatch, mismatch};
 pub use monitor::{Monitor, Stage, Unwatched};
 pub use no_path::NoPath;
-pub use objective::{NEARLY_EQUAL, Objective};
+pub use objective::Objective;
 pub use options::OptionValue;
 pub use plan::{Plan, PlanRecord, RecordError, gap};
 pub use planner::{Planner, Round};

@@ -5,14 +5,12 @@ use crate::arm::{Arm, Configuration, joint_distance, lerp};
 use crate::mesh::Measure;
 use crate::optimise::Length;
 use crate::path::JointPath;
+use crate::roadmap::StepCost;
 use crate::scene::{Place, TwoLinkScene};
 use crate::trajectory::{Motion, SpeedLimits, fastest_durations, vias_at};
 use crate::verify::{
     BoundError, OpenJoints, Reachability, bound_over_joints, bound_over_time, least_time_between,
 };
-
-/// By how much a path's tip travel may be above the least and the path still be chosen for what the arm pays, as a share.
-pub const NEARLY_EQUAL: f64 = 0.01;
 
 /// What joint travel weighs where tip travel counts, as a share of the reach (m/rad): enough against needless self-motion.
 const JOINT_SHARE: f64 = 0.02;
@@ -157,14 +155,6 @@ impl Objective {
         }
     }
 
-    /// By how much a path's tip travel may be above the least for the path to be a candidate, as a share.
-    pub(crate) const fn slack(self) -> f64 {
-        match self {
-            Self::Tip => 0.0,
-            Self::Joint | Self::Time => NEARLY_EQUAL,
-        }
-    }
-
     /// Whether ways are measured in the workspace, by the tip, and not in the plane of the joints.
     pub(crate) const fn is_in_workspace(self) -> bool {
         matches!(self, Self::Tip)
@@ -185,6 +175,15 @@ impl Objective {
         match self {
             Self::Tip | Self::Joint => Measure::Euclidean,
             Self::Time => Measure::Greatest([0, 1].map(|j| 1.0 / limits[j].velocity)),
+        }
+    }
+
+    /// What steps of a graph over places and postures cost: by tip travel (m), joint travel (rad) or time (s), that of joints at their
+    /// greatest velocities all along.
+    pub(crate) fn step_cost(self, limits: &[SpeedLimits]) -> StepCost {
+        match self {
+            Self::Tip => StepCost::Tip,
+            Self::Joint | Self::Time => StepCost::Joints(self.measure(limits)),
         }
     }
 

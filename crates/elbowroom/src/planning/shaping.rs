@@ -7,6 +7,7 @@ use super::made::{Made, followed};
 use super::{Pace, PlanError, Problem, mismatch};
 use crate::arm::{Arm, Joint, JointLimits};
 use crate::optimise::{Constraints, Goal, Length, improved};
+use crate::path::can_be_deformed;
 use crate::trajectory::{Motion, SpeedLimits};
 use crate::verify::{Trajectory, VerifySettings};
 
@@ -17,34 +18,81 @@ const WITHIN_LIMITS: f64 = 1e-4;
 /// Arms of more links keep their motion as it is: one program would take seconds, in which nobody could stop it.
 const MOST_LINKS: usize = 12;
 
+/// How many motions are made better, at most.
+const SHAPED: usize = 3;
+
 /// Whether motions of ours in `problem` are shaped.
 pub(super) fn shapes(problem: &Problem<'_>) -> bool {
     problem.scene.arm().links() <= MOST_LINKS
 }
 
-/// Of `ranked` motions, the best first, the one that is the best when all are made better: the fastest where time counts, else the
-/// fastest of those that are longer by no more than the slack than the shortest; of the duration that was asked for, if one was.
+/// Of `ranked` motions, the best first, of which the one at `first` was proposed before all others, the one that is the best when they are
+/// made better: the fastest where time counts, else the fastest of those that are longer by no more than the slack than the shortest; of the
+/// duration that was asked for, if one was.
 ///
 /// # Errors
 /// [`PlanError::Stopped`], [`PlanError::TooFast`]
 pub(super) fn best_of(
     problem: &Problem<'_>,
-    ranked: Vec<(f64, Made)>,
+    mut ranked: Vec<(f64, Made)>,
+    first: usize,
     lower_bound: Option<f64>,
 ) -> Result<Option<(f64, Made)>, PlanError> {
     let is_ours = |(_, made): &(f64, Made)| made.is_ours && made.trajectory.motion().duration() > 0.0;
     if !shapes(problem) || !ranked.iter().any(is_ours) {
         return Ok(ranked.into_iter().next());
     }
-    let (motions, longest) = match problem.settings.objective.length() {
-        Some(length) => shortest_of(problem, ranked, length, lower_bound)?,
-        None => (ranked, None),
-    };
-    let Some((cost, fastest)) = fastest_of(problem, motions, longest)? else { return Ok(None) };
-    match problem.settings.pace {
-        Pace::Duration(seconds) if fastest.is_ours => lasting(problem, fastest, seconds, longest).map(Some),
-        _ => Ok(Some((cost, fastest))),
+    let least = ranked.iter().map(|(cost, _)| *cost).fold(f64::INFINITY, f64::min);
+    // What was proposed first is always among them: what its motion costs as yet does not tell what becomes of it.
+    ranked[..=first].rotate_right(1);
+    let mut best: Option<Best> = None;
+    for motions in in_turn(problem, ranked) {
+        let (motions, longest) = match problem.settings.objective.length() {
+            Some(length) => shortest_of(problem, motions, length, lower_bound)?,
+            None => (motions, None),
+        };
+        let found = fastest_of(problem, motions, longest)?.map(|(cost, made)| Best { cost, made, longest });
+        best = best.into_iter().chain(found).min_by(|a, b| a.cost.total_cmp(&b.cost));
+        // Where none of them became better, others may.
+        if best.as_ref().is_some_and(|best| best.cost < least) {
+            break;
+        }
     }
+    let Some(Best { cost, made, longest }) = best else { return Ok(None) };
+    match problem.settings.pace {
+        Pace::Duration(seconds) if made.is_ours => lasting(problem, made, seconds, longest).map(Some),
+        _ => Ok(Some((cost, made))),
+    }
+}
+
+/// What became of some motions.
+struct Best {
+    cost: f64,
+    made: Made,
+    /// What it was not to be longer than.
+    longest: Longest,
+}
+
+/// `ranked` motions, [`SHAPED`] at a time: at first those whose paths cannot be pulled over to any before them, for what can be ends as the
+/// same motion when it is made better, as a rule.
+fn in_turn(problem: &Problem<'_>, ranked: Vec<(f64, Made)>) -> Vec<Vec<(f64, Made)>> {
+    let mut first: Vec<(f64, Made)> = Vec::new();
+    let mut others = Vec::new();
+    for (cost, made) in ranked {
+        let is_known =
+            |(_, known): &(f64, Made)| can_be_deformed(problem.scene, &known.joint_path, &made.joint_path);
+        if first.len() < SHAPED && !first.iter().any(is_known) {
+            first.push((cost, made));
+        } else {
+            others.push((cost, made));
+        }
+    }
+    let mut turns = vec![first];
+    while !others.is_empty() {
+        let later = others.split_off(others.len().min(SHAPED));
+        turns.push(std::mem::replace(&mut others, later));
+    }
+    turns
 }
 
 /// A length, and the most that a motion may have of it (m or rad).

@@ -6,9 +6,11 @@ mod branch_grid;
 mod clearance_cache;
 mod dynamic_graph;
 mod posture_graph;
+mod step_cost;
 mod union_graph;
 
 pub(crate) use branch_grid::{NodeCache, direct};
 pub(crate) use dynamic_graph::{DynamicGraph, Goal};
 pub(crate) use posture_graph::PostureGraph;
+pub(crate) use step_cost::StepCost;
 pub(crate) use union_graph::UnionGraph;

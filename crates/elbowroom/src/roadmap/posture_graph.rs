@@ -1,4 +1,5 @@
-use super::branch_grid::{BranchGrid, CachedNode, Edge, NodeCache, direct, to_edge};
+use super::branch_grid::{BranchGrid, CachedNode, Edge, NodeCache, direct};
+use super::step_cost::StepCost;
 use crate::arm::{Posture, joint_distance, lerp_pair};
 use crate::free_space::FreeSpace;
 use crate::geometry::Point;
@@ -11,7 +12,7 @@ use crate::search::Graph;
 /// that every direction has a grid point there.
 pub(super) const SINGULAR_BAND: f64 = 2.0;
 
-/// Least cost of an edge, in grid steps: the search needs costs that do not vanish in a sum.
+/// Least cost of an edge, as a share of the grid step in metres: the search needs costs that do not vanish in a sum.
 pub(super) const LEAST_COST: f64 = 1e-9;
 
 /// A turn of at least this much (rad) that is not free is tried again in halves: near full stretch and fold a
@@ -31,6 +32,7 @@ pub(crate) struct PostureGraph<'a> {
     pub(super) scene: TwoLinkScene<'a>,
     pub(super) branches: BranchGrid<'a>,
     pub(super) may_change_posture: bool,
+    step_cost: StepCost,
     places: Vec<PlaceNode>,
 }
 
@@ -43,11 +45,16 @@ struct PlaceNode {
 
 impl<'a> PostureGraph<'a> {
     /// The graph over the map of `scene`; the posture never changes unless `may_change_posture`.
-    pub(crate) fn new(scene: TwoLinkScene<'a>, space: &'a FreeSpace, may_change_posture: bool) -> Self {
-        Self::with(scene, space, may_change_posture, NodeCache::default())
+    pub(crate) fn new(
+        scene: TwoLinkScene<'a>,
+        space: &'a FreeSpace,
+        may_change_posture: bool,
+        step_cost: StepCost,
+    ) -> Self {
+        Self { step_cost, ..Self::with(scene, space, may_change_posture, NodeCache::default()) }
     }
 
-    /// [`new`](Self::new), with what is known already.
+    /// That of tip travel, with what is known already.
     pub(super) fn with(
         scene: TwoLinkScene<'a>,
         space: &'a FreeSpace,
@@ -55,7 +62,7 @@ impl<'a> PostureGraph<'a> {
         cache: NodeCache,
     ) -> Self {
         let branches = BranchGrid::new(scene, space, SINGULAR_BAND * scene.grid().step(), cache);
-        Self { scene, branches, may_change_posture, places: Vec::new() }
+        Self { scene, branches, may_change_posture, step_cost: StepCost::Tip, places: Vec::new() }
     }
 
     /// A node for `q`, a free configuration, joined to the nodes over the corners of the grid's square
@@ -185,17 +192,26 @@ impl<'a> PostureGraph<'a> {
         self.connect(&middle, to, halvings - 1, between)
     }
 
-    /// Tip travel between two configurations (m): straight within a posture, by way of full stretch or
-    /// fold between them. More than 0, as the search asks.
+    /// What an edge between two configurations costs, with the tip where it is there. More than 0, as the search asks.
     pub(super) fn cost(&self, a: Point, b: Point, qa: &[f64; 2], qb: &[f64; 2]) -> f64 {
-        let straight = a.distance(b);
-        let travel = match (Posture::of(qa), Posture::of(qb)) {
-            (Some(pa), Some(pb)) if pa != pb => {
-                straight.max(to_edge(self.scene.arm(), a) + to_edge(self.scene.arm(), b))
-            }
-            _ => straight,
-        };
-        travel.max(LEAST_COST * self.scene.grid().step())
+        let cost = self.step_cost.between(self.scene.arm(), (a, qa), (b, qb));
+        cost.max(LEAST_COST * self.scene.grid().step())
+    }
+
+    /// What any path between two nodes costs at least, whatever is in the way; none where one of them is not free.
+    pub(crate) fn cost_at_least(&self, a: usize, b: usize) -> Option<f64> {
+        let (qa, qb) = (self.configuration(a)?, self.configuration(b)?);
+        Some(self.step_cost.at_least(self.scene.arm(), (self.tip(a), &qa), (self.tip(b), &qb)))
+    }
+
+    /// What the edge from `node` to its neighbour `other` on the branch costs.
+    fn branch_cost(&self, (node, from): (usize, &CachedNode), other: usize, direction: usize) -> f64 {
+        if self.step_cost == StepCost::Tip {
+            return self.scene.grid().neighbour_distance(direction);
+        }
+        let Some((_, to)) = self.branches.look(other) else { return f64::INFINITY };
+        let (a, b) = if node < other { (from.q, to.q) } else { (to.q, from.q) };
+        self.cost(self.tip(node.min(other)), self.tip(node.max(other)), &a, &b)
     }
 
     /// Whether the edge from `node`, kept at `place`, to its neighbour `other` on the branch is certified.
@@ -281,7 +297,8 @@ impl<'a> PostureGraph<'a> {
                 certified
             })
         };
-        certified.then(|| self.cost(self.tip(node), self.tip(other), &from.q, &to.q))
+        let [low, high] = [node.min(other), node.max(other)];
+        certified.then(|| self.cost(self.tip(low), self.tip(high), &a.q, &b.q))
     }
 
     /// Whether the posture may be changed at a node.
@@ -311,7 +328,8 @@ impl Graph for PostureGraph<'_> {
         for (direction, neighbour) in self.branches.around(cell).into_iter().enumerate() {
             let Some(neighbour) = neighbour else { continue };
             if self.branch_edge(node, (place, &from), branch + neighbour, direction) {
-                visit(branch + neighbour, self.scene.grid().neighbour_distance(direction));
+                let cost = self.branch_cost((node, &from), branch + neighbour, direction);
+                visit(branch + neighbour, cost);
             }
             if crosses {
                 self.visit_across(node, (place, &from), (neighbour, Some(direction)), &mut visit);

@@ -7,9 +7,11 @@ mod goal;
 mod graph;
 mod nodes;
 mod open_list;
+mod plateaus;
 mod ring;
 
 pub use dijkstra::dijkstra;
 pub use dstar::{Dstar, NodeState, Progress, Until};
 pub use goal::GoalError;
 pub use graph::Graph;
+pub use plateaus::{PlateauSettings, plateaus};

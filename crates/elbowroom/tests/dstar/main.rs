@@ -7,7 +7,9 @@ mod known;
 mod lattice;
 mod world;
 
-use elbowroom::search::{Dstar, GoalError, Graph, NodeState, Progress, Until, dijkstra};
+use elbowroom::search::{
+    Dstar, GoalError, Graph, NodeState, PlateauSettings, Progress, Until, dijkstra, plateaus,
+};
 use known::set_blocked;
 use lattice::Lattice;
 use rand_chacha::ChaCha8Rng;
@@ -334,5 +336,65 @@ fn goals_come_and_change_their_cost() {
                 assert_field(&world, &dstar, &goals);
             }
         }
+    }
+}
+
+/// The cost-to-go to `goal` of all nodes.
+fn field_to(lattice: &Lattice, goal: usize) -> Dstar {
+    let mut field = Dstar::new(lattice.len());
+    field.insert_goal(goal, 0.0).unwrap();
+    assert_eq!(field.expand(lattice, Until::WholeField, ALL), Progress::Done);
+    field
+}
+
+#[test]
+fn plateaus_lie_on_both_ways_round_an_obstacle_and_nowhere_else() {
+    let settings = PlateauSettings { within: 0.5, stretch: 0.02, drop: 0.05 };
+    let (columns, rows) = (81_usize, 61);
+    let mut rng = ChaCha8Rng::seed_from_u64(3);
+    for _ in 0..200 {
+        // A wall in the middle, nearer to the lower rim: below it is shorter.
+        let mut draw = |low: usize, count: u64| low + (rng.next_u64() % count) as usize;
+        let (left, width, low, high) = (draw(35, 5), draw(4, 8), draw(18, 8), draw(33, 8));
+        let is_wall = |node: usize| {
+            let (x, y) = (node % columns, node / columns);
+            (left..left + width).contains(&x) && (low..=high).contains(&y)
+        };
+        let lattice = Lattice::new(columns, 1.0, (0..columns * rows).map(|node| !is_wall(node)).collect());
+        let [start, goal] = [10, 70].map(|x| 25 * columns + x);
+        let [from_start, to_goal] = [start, goal].map(|end| field_to(&lattice, end));
+        let least = to_goal.cost_to_go(start);
+        let pieces = plateaus(&lattice, &from_start, &to_goal, least, &settings);
+        let cost = |node: usize| from_start.cost_to_go(node) + to_goal.cost_to_go(node);
+        // Beside the wall, where ways have to choose a side.
+        let beside = |node: &usize| (left..left + width).contains(&(node % columns));
+        let sides = |of_side: fn(usize, usize, usize) -> bool| {
+            let nodes = pieces.iter().flatten().filter(|node| beside(node));
+            nodes
+                .filter(|&&node| of_side(node / columns, low, high))
+                .map(|&node| cost(node))
+                .fold(f64::INFINITY, f64::min)
+        };
+        let (below, above) = (sides(|y, low, _| y < low), sides(|y, _, high| y > high));
+        // What the shortest way on either side costs, where the other is blocked.
+        let blocked = |blocked_rows: std::ops::Range<usize>| {
+            let is_free = |node: usize| {
+                let is_blocked = node % columns == left && blocked_rows.contains(&(node / columns));
+                !is_wall(node) && !is_blocked
+            };
+            let one_way = Lattice::new(columns, 1.0, (0..columns * rows).map(is_free).collect());
+            field_to(&one_way, goal).cost_to_go(start)
+        };
+        for (found, known) in [(below, blocked(high..rows)), (above, blocked(0..low + 1))] {
+            assert!(
+                known > (1.0 + settings.within) * least || (found - known).abs() < 1e-9,
+                "{found}, {known}"
+            );
+        }
+        // The way there and on has no bend, as far as is looked.
+        for &node in pieces.iter().flatten() {
+            assert!(cost(node) <= (1.0 + settings.within) * least);
+        }
+        assert!(pieces.windows(2).all(|pair| cost(pair[0][0]) <= cost(pair[1][0])));
     }
 }
