@@ -127,7 +127,9 @@ pub(super) fn paths_over_grid(
 
     monitor.stage(Stage::TipPath);
     let from_start = field(&graph, &starts, &goals, *monitor)?;
-    let mut others = alternatives(&graph, &from_start, &to_goal, to_goal.cost_to_go(start));
+    let keep_going = || monitor.keep_going();
+    let others = alternatives(&graph, &from_start, &to_goal, to_goal.cost_to_go(start), &keep_going)
+        .ok_or(PlanError::Stopped)?;
     let terrain = Terrain {
         graph: &graph,
         cost_to_go: &|node| to_goal.cost_to_go(node),
@@ -140,27 +142,34 @@ pub(super) fn paths_over_grid(
     let swarm = GuidedSwarmSettings { keep_within: swarm.keep_within.max(SETTINGS.keep_within), ..*swarm };
     let drawn = draw_paths(&terrain, start, &swarm, settings.seed, &|| monitor.keep_going());
     let drawn = drawn.ok_or(PlanError::Stopped)?;
-    others.extend(drawn.costs.into_iter().zip(drawn.paths));
 
     monitor.stage(Stage::JointPath);
-    others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let others = others.iter().map(|(_, nodes)| joined(nodes)).collect::<Result<Vec<_>, _>>()?;
-    let paths = 1 + others.len();
+    let paths = 1 + others.len() + drawn.paths.len();
+    let in_order = |mut paths: Vec<(f64, Vec<usize>)>, most: usize| {
+        paths.sort_by(|a, b| a.0.total_cmp(&b.0));
+        paths.iter().take(most).map(|(_, nodes)| joined(nodes)).collect::<Result<Vec<_>, _>>()
+    };
+    let others = in_order(others, usize::MAX)?;
+    let evaluations = drawn.candidates;
+    let drawn = in_order(drawn.costs.into_iter().zip(drawn.paths).collect(), SETTINGS.shortlist)?;
     // D*'s own path stays in the running whatever it promises, so that the choice is hardly ever worse.
-    let chosen = shortlist(scene.scene(), own, others, SETTINGS.shortlist);
+    let chosen = shortlist(scene.scene(), own, others, drawn, SETTINGS.shortlist, &keep_going)
+        .ok_or(PlanError::Stopped)?;
     let candidates = chosen.into_iter().map(followed).collect();
-    let effort = Some(Effort { evaluations: drawn.candidates, ..Effort::default() });
+    let effort = Some(Effort { evaluations, ..Effort::default() });
     Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })
 }
 
-/// Paths from a start to a goal by way of plateaus of the cost-to-go, with what they cost.
+/// Paths from a start to a goal by way of plateaus of the cost-to-go, with what they cost; `None` where
+/// `keep_going` said no.
 fn alternatives(
     graph: &PostureGraph<'_>,
     from_start: &Dstar,
     to_goal: &Dstar,
     least: f64,
-) -> Vec<(f64, Vec<usize>)> {
-    let pieces = plateaus(graph, from_start, to_goal, least, &SETTINGS.plateaus);
+    keep_going: &dyn Fn() -> bool,
+) -> Option<Vec<(f64, Vec<usize>)>> {
+    let pieces = plateaus(graph, from_start, to_goal, least, &SETTINGS.plateaus, keep_going)?;
     let vias = pieces.iter().take(SETTINGS.pieces).flat_map(|piece| {
         let vias = SETTINGS.vias.min(piece.len());
         (0..vias).map(move |i| piece[i * piece.len() / vias])
@@ -171,7 +180,7 @@ fn alternatives(
         nodes.extend(to_goal.path(via)?.into_iter().skip(1));
         Some((from_start.cost_to_go(via) + to_goal.cost_to_go(via), nodes))
     };
-    vias.filter_map(by).collect()
+    Some(vias.filter_map(by).collect())
 }
 
 /// The cost-to-go to the nearest of `goals`, as far as from the nearest of `starts`.

@@ -364,7 +364,7 @@ fn plateaus_lie_on_both_ways_round_an_obstacle_and_nowhere_else() {
         let [start, goal] = [10, 70].map(|x| 25 * columns + x);
         let [from_start, to_goal] = [start, goal].map(|end| field_to(&lattice, end));
         let least = to_goal.cost_to_go(start);
-        let pieces = plateaus(&lattice, &from_start, &to_goal, least, &settings);
+        let pieces = plateaus(&lattice, &from_start, &to_goal, least, &settings, &|| true).unwrap();
         let cost = |node: usize| from_start.cost_to_go(node) + to_goal.cost_to_go(node);
         // Beside the wall, where ways have to choose a side.
         let beside = |node: &usize| (left..left + width).contains(&(node % columns));
