@@ -98,5 +98,5 @@ impl OptimalPlanner {
 
 /// A motion along `path`.
 fn candidate(path: JointPath, tolerance: f64) -> Candidate {
-    Candidate::certified(PathToFollow { path, tolerance })
+    Candidate::certified(PathToFollow { path, tip_travel: None, tolerance })
 }

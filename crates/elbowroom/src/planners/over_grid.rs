@@ -123,7 +123,11 @@ pub(super) fn paths_over_grid(
     let start = cheapest.filter(|&start| to_goal.cost_to_go(start).is_finite()).ok_or_else(not_found)?;
     let joined = |nodes: &[usize]| graph.joint_path(nodes).ok_or_else(not_found);
     let own = joined(&to_goal.path(start).ok_or_else(not_found)?)?;
-    let Choice::Drawn(swarm) = choice else { return Ok(Found::new(vec![followed(own)], Pick::Best)) };
+    // What D* counts is tip travel where that is asked for.
+    let own_travel = (settings.objective == Objective::Tip).then(|| to_goal.cost_to_go(start));
+    let Choice::Drawn(swarm) = choice else {
+        return Ok(Found::new(vec![followed(own, own_travel)], Pick::Best));
+    };
 
     monitor.stage(Stage::TipPath);
     let from_start = field(&graph, &starts, &goals, *monitor)?;
@@ -155,7 +159,8 @@ pub(super) fn paths_over_grid(
     // D*'s own path stays in the running whatever it promises, so that the choice is hardly ever worse.
     let chosen = shortlist(scene.scene(), own, others, drawn, SETTINGS.shortlist, &keep_going)
         .ok_or(PlanError::Stopped)?;
-    let candidates = chosen.into_iter().map(followed).collect();
+    let travels = std::iter::once(own_travel).chain(std::iter::repeat(None));
+    let candidates = chosen.into_iter().zip(travels).map(|(path, travel)| followed(path, travel)).collect();
     let effort = Some(Effort { evaluations, ..Effort::default() });
     Ok(Found { candidates, pick: Pick::Best, chosen_from: paths, effort })
 }
@@ -205,6 +210,6 @@ fn field(
     Ok(field)
 }
 
-fn followed(path: JointPath) -> Candidate {
-    Candidate::certified(PathToFollow { path, tolerance: SETTINGS.tolerance })
+fn followed(path: JointPath, tip_travel: Option<f64>) -> Candidate {
+    Candidate::certified(PathToFollow { path, tip_travel, tolerance: SETTINGS.tolerance })
 }

@@ -126,7 +126,7 @@ fn along(
         return Err(PlanError::Uncertified { planner: planner.to_owned(), from });
     }
     let smoothed = smoothed(problem, planner, &follow, lower_bound)?;
-    let path_cost = follow.path.tip_travel(problem.scene.arm());
+    let path_cost = follow.tip_travel(problem.scene.arm());
     Ok(Made {
         trajectory: smoothed.trajectory,
         joint_path: follow.path,

@@ -1,5 +1,5 @@
 use super::Effort;
-use crate::arm::Configuration;
+use crate::arm::{Arm, Configuration};
 use crate::path::{JointPath, straight_move_is_free};
 use crate::scene::Scene;
 use crate::trajectory::Motion;
@@ -26,6 +26,8 @@ pub(super) enum Proposed {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PathToFollow {
     pub(crate) path: JointPath,
+    /// Its tip travel as the planner counts it (m); `None` for that of its straight moves.
+    pub(crate) tip_travel: Option<f64>,
     /// How far the motion may stray from it before the verifier is asked, in grid steps.
     pub(crate) tolerance: f64,
 }
@@ -64,7 +66,12 @@ impl Candidate {
 impl PathToFollow {
     /// To be followed closely.
     pub(crate) fn closely(path: JointPath) -> Self {
-        Self { path, tolerance: TOLERANCE }
+        Self { path, tip_travel: None, tolerance: TOLERANCE }
+    }
+
+    /// Its tip travel (m).
+    pub(super) fn tip_travel(&self, arm: &Arm) -> f64 {
+        self.tip_travel.unwrap_or_else(|| self.path.tip_travel(arm))
     }
 
     /// The index of the configuration from which the straight move to the next is not certified free, or that is none of the
