@@ -43,7 +43,8 @@ campaign:
 	cargo test --release -p elbowroom --test bound -- --ignored --nocapture
 	cargo test --release -p elbowroom --test replanner -- --ignored --nocapture
 
-# elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about half an hour.
+# elbowroom beside its peers, in an environment of its own: docs/benchmarks.md and its pictures, about half an hour; and how near the
+# least time along their paths motions are (docs/motions.md), which CasADi judges.
 # A peer that does not install is a row that says so. OMPL in C++ takes part where libompl-dev and cmake are installed.
 bench:
 	@test -x .venv-bench/bin/python || $(PYTHON) -m venv .venv-bench
@@ -54,6 +55,7 @@ bench:
 	done
 	cargo build --release --quiet -p elbowroom --example measure
 	.venv-bench/bin/python -m bench
+	.venv-bench/bin/python -m bench.along_path
 
 # Criterion's benchmarks of the core alone.
 bench-core:

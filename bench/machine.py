@@ -19,6 +19,7 @@ PACKAGES = (
     "pyswarms",
     "toppra",
     "ruckig",
+    "casadi",
 )
 
 

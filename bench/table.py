@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
 from bench.entries import MS_CLASS, Comparison, Entry, Goal, Section, Table
+
+GOALS = ""
+"""Stands for the key of the part with the goals."""
 
 
 def page(sections: Sequence[Section], about: Mapping[str, str]) -> str:
@@ -31,6 +35,42 @@ def page(sections: Sequence[Section], about: Mapping[str, str]) -> str:
     for section in sections:
         lines += ["", *section_lines(section)]
     return "\n".join(lines) + "\n"
+
+
+def spliced(text: str, sections: Sequence[Section], about: Mapping[str, str], order: Sequence[str]) -> str:
+    """Return the page ``text`` with ``sections`` anew and all others as they were; ``order`` has all keys.
+
+    What the sections were measured on stands below their titles: the rest of the page was measured on something else.
+    """
+    head, *parts = re.split(r"(?m)^(?=## )", text)
+    kept = {_key(part): part.rstrip("\n") for part in parts}
+    measured = "; ".join(f"{what}: {value}" for what, value in about.items())
+    for section in sections:
+        title, blank, *lines = section_lines(section)
+        words = textwrap.wrap(f"Measured apart from the others, {measured}.", 120, break_on_hyphens=False)
+        kept[section.key] = "\n".join([title, blank, *words, "", *lines])
+    fresh = [goal for section in sections for goal in section.goals]
+    kept[GOALS] = _goals_spliced(kept[GOALS], fresh)
+    return "\n\n".join([head.rstrip("\n"), *(kept[key] for key in (GOALS, *order) if key in kept)]) + "\n"
+
+
+def _key(part: str) -> str:
+    """Return the key in the title of a part of the page; the goals' part has none of its own."""
+    found = re.match(r"## .* \(`(\w+)`\)\n", part)
+    return found[1] if found else GOALS
+
+
+def _goals_spliced(part: str, fresh: Sequence[Goal]) -> str:
+    """Return the part of the page with the goals, those of ``fresh`` in place of those of the same work."""
+    lines = part.splitlines()
+    begin = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    end = next(i for i, line in enumerate([*lines, ""]) if i > begin and not line.startswith("|"))
+    of = {goal.work for goal in fresh}
+    rows = [row for row in [*lines[begin + 2 : end]] if row.split(" | ")[0].removeprefix("| ") not in of]
+    rows += [*goals(fresh)][2:]
+    place = {"**not reached**": 0, "not measured": 1, "reached": 2}
+    rows.sort(key=lambda row: place[row.split(" | ")[-1].removesuffix(" |")])
+    return "\n".join([*lines[: begin + 2], *rows, *lines[end:]])
 
 
 def goals(goals: Sequence[Goal]) -> Iterator[str]:

@@ -75,6 +75,28 @@ def test_results_that_were_stored_make_the_same_page() -> None:
     assert table.page([again], {}) == table.page([SECTION], {})
 
 
+def test_a_section_that_was_measured_apart_leaves_the_others_as_they_are() -> None:
+    other = Section("plan", "Whole plan", "Another.", [COMPARISON], goals=[Goal("plan", "g", "m", True)])
+    whole = table.page([SECTION, other], {"machine": "old"})
+    again = Section("plan", "Whole plan", "Anew.", [COMPARISON], goals=[Goal("plan", "g", "m", False)])
+    late = Section("motions", "Motions", "New.", goals=[Goal("motions", "g", "m", True)])
+    page = table.spliced(whole, [again, late], {"machine": "new"}, ["map", "motions", "plan"])
+    assert [line for line in page.splitlines() if line.startswith("## ")] == [
+        "## Speed to reach",
+        "## Free-space map (`map`)",
+        "## Motions (`motions`)",
+        "## Whole plan (`plan`)",
+    ]
+    kept, title = whole.index("## Free-space"), "## Whole plan"
+    assert whole[kept : whole.index(title)] in page
+    assert "Another." not in page
+    assert "- machine: old" in page
+    assert page.count("Measured apart from the others, machine: new.") == 2
+    rows = [line for line in page.splitlines() if line.endswith("reached** |") or line.endswith("| reached |")]
+    assert [row.split(" | ")[0] for row in rows] == ["| map", "| plan", "| motions"]
+    assert table.spliced(page, [again, late], {"machine": "new"}, ["map", "motions", "plan"]) == page
+
+
 def test_pictures_are_drawn(tmp_path: Path) -> None:
     sizes = [{"what": what, "points": n, "ms": n / 10, "mib": n} for what in ("map", "field") for n in (101, 201)]
     paths = [{"who": who, "case": "a", "ms": ms, "share": 0.5} for who, ms in (("elbowroom", 3.0), ("peer", None))]

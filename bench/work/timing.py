@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 import statistics
 from functools import partial
-from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import elbowroom as er
+from bench import time_peers
 from bench.clock import OUT, ROOT, core, median_ms
 from bench.entries import Comparison, Entry, Section, Table, attempt
 
@@ -33,58 +32,18 @@ PROMISES = (
 )
 
 
-def by_toppra(scene: er.Scene, vias: Floats, limits: list[float]) -> Entry:
+def by_toppra(scene: er.Scene, vias: Floats, limits: Floats) -> Entry:
     """A cubic spline through the vias, then TOPP-RA with limits on velocity and acceleration."""
-    import toppra
-    from toppra import algorithm, constraint
-
-    toppra.setup_logging("ERROR")
-    velocity, acceleration, _ = limits
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(vias, axis=0), axis=1))])
-    bounds = [
-        constraint.JointVelocityConstraint(np.full(2, velocity)),
-        constraint.JointAccelerationConstraint(np.full(2, acceleration)),
-    ]
-
-    def timed() -> Any:
-        path = toppra.SplineInterpolator(along, vias)
-        return algorithm.TOPPRA(bounds, path, parametrizer="ParametrizeConstAccel").compute_trajectory()
-
-    ms, found = median_ms(timed, RUNS)
-    t = np.append(np.arange(0.0, found.duration, PERIOD), found.duration)
-    return entry(scene, "toppra", ms, t, found(t), found(t, 1))
+    ms, found = median_ms(time_peers.by_toppra(vias, limits, "ParametrizeConstAccel"), RUNS)
+    t, q, v, _ = time_peers.toppra_rows(found, PERIOD)
+    return entry(scene, "toppra", ms, t, q, v)
 
 
-def by_ruckig(scene: er.Scene, vias: Floats, limits: list[float]) -> Entry:
-    """Straight turns from stop to stop: passing through vias is left to ruckig's cloud service, which is not asked."""
-    from ruckig import InputParameter, Result, Ruckig, Synchronization, Trajectory
-
-    def timed() -> list[Any]:
-        otg, pieces = Ruckig(2), []
-        for here, there in pairwise(vias):
-            given = InputParameter(2)
-            given.current_position, given.target_position = here.tolist(), there.tolist()
-            given.max_velocity, given.max_acceleration, given.max_jerk = ([limit] * 2 for limit in limits)
-            given.synchronization = Synchronization.Phase
-            piece = Trajectory(2)
-            if otg.calculate(given, piece) not in (Result.Working, Result.Finished):
-                raise RuntimeError("ruckig found no trajectory")
-            pieces.append(piece)
-        return pieces
-
-    ms, pieces = median_ms(timed, RUNS)
-    t: list[float] = []
-    q: list[list[float]] = []
-    v: list[list[float]] = []
-    begin = 0.0
-    for piece in pieces:
-        for at in np.linspace(0.0, piece.duration, 1 + int(np.ceil(piece.duration / PERIOD)))[bool(t) :]:
-            position, speed, _ = piece.at_time(at)
-            t.append(begin + at)
-            q.append(position)
-            v.append(speed)
-        begin += piece.duration
-    return entry(scene, "ruckig, a stop at every via", ms, np.array(t), np.array(q), np.array(v))
+def by_ruckig(scene: er.Scene, vias: Floats, limits: Floats) -> Entry:
+    """Straight turns from stop to stop."""
+    ms, pieces = median_ms(time_peers.by_ruckig(vias, limits), RUNS)
+    t, q, v, _ = time_peers.ruckig_rows(pieces, PERIOD)
+    return entry(scene, "ruckig, a stop at every via", ms, t, q, v)
 
 
 def entry(scene: er.Scene, who: str, ms: float, t: Floats, q: Floats, v: Floats) -> Entry:
@@ -108,14 +67,15 @@ def measure() -> Section:
         ours = core("timing", ROOT / "scenes" / f"{name}.yaml", file, RUNS)
         said = f"{ours['duration']:.2f} s, {'proved safe' if ours['safe'] else '**not proved safe**'}"
         limits = ours["limits"]
+        of_joints = np.outer(limits, np.ones(len(scene.arm.joints)))
         comparisons.append(
             Comparison(
                 f"{name}.yaml, task {task}: {len(vias)} vias",
                 [
                     Entry("elbowroom, timed and verified", statistics.median(ours["verified_ms"]), said),
                     Entry("elbowroom, timed only", statistics.median(ours["times_ms"]), "the same polynomials"),
-                    attempt("toppra", partial(by_toppra, scene, vias, limits)),
-                    attempt("ruckig", partial(by_ruckig, scene, vias, limits)),
+                    attempt("toppra", partial(by_toppra, scene, vias, of_joints)),
+                    attempt("ruckig", partial(by_ruckig, scene, vias, of_joints)),
                 ],
             )
         )
