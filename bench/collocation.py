@@ -23,6 +23,9 @@ Floats = NDArray[np.float64]
 Pairs = Sequence[tuple[int, int]]
 
 PHASES, PIECES = 8, 6
+BETWEEN = (0.25, 0.5, 0.75)
+"""Where velocities are bounded besides knots: shares of a piece."""
+
 NEAR = 0.15
 """Obstacles that a link comes no nearer along the start are left to the verifier: a share of the reach."""
 
@@ -69,7 +72,7 @@ class Collocation:
         kept = clear.shape[0] * clear.shape[1]
         rows = ca.vertcat(ca.vec(ends - states[:, 1:]), ca.vec(speeds), ca.vec(clear))
         defects = np.zeros(3 * n * (self.knots - 1))
-        fast = np.tile(velocity, self.knots - 1)
+        fast = np.tile(velocity, len(BETWEEN) * (self.knots - 1))
         bounds = np.concatenate([velocity, acceleration])
         state_low = np.tile(np.concatenate([lowest, -bounds]), (self.knots, 1))
         state_high = np.tile(np.concatenate([highest, bounds]), (self.knots, 1))
@@ -90,14 +93,15 @@ class Collocation:
                     "sb": "yes",
                     "max_iter": 1000,
                     "max_cpu_time": SECONDS,
-                    "tol": 1e-5,
-                    "constr_viol_tol": 1e-9,
+                    "tol": 1e-8,
+                    "constr_viol_tol": 1e-12,
+                    "mu_strategy": "adaptive",
                 },
             },
         )
 
     def _piece(self, scene: er.Scene, pairs: Pairs, places: int) -> ca.Function:
-        """Return what becomes of a state: where the piece ends, speeds at its middle, clearances on its way."""
+        """Return what becomes of a state: where the piece ends, speeds between, clearances on its way."""
         n = len(scene.arm.joints)
         state, jerk, h = ca.SX.sym("state", 3 * n), ca.SX.sym("jerk", n), ca.SX.sym("h")
         q, v, a = state[:n], state[n : 2 * n], state[2 * n :]
@@ -106,7 +110,8 @@ class Collocation:
             return q + v * t + a * t**2 / 2 + jerk * t**3 / 6, v + a * t + jerk * t**2 / 2, a + jerk * t
 
         clear = [clearance for k in range(places) for clearance in clearances(scene, pairs, at(h * k / places)[0])]
-        return ca.Function("piece", [state, jerk, h], [ca.vertcat(*at(h)), at(h / 2)[1], ca.vertcat(*clear)])
+        speeds = [at(h * share)[1] for share in BETWEEN]
+        return ca.Function("piece", [state, jerk, h], [ca.vertcat(*at(h)), ca.vertcat(*speeds), ca.vertcat(*clear)])
 
     def solved(self) -> Rows:
         """Return the motion that IPOPT makes of the start, from rest to rest between the same ends.
